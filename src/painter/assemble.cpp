@@ -26,7 +26,7 @@ class Assembler {
     boxes_ = room_for(chunk_.count + more, chunk_.boxes);
   }
 
-  // A triangle, line or point.
+  // A triangle (filled, or its edges or corners), line or point; `v`: indices of vertices_.
   void add_primitive(const Draw& draw, Topology topology, const std::uint32_t (&v)[3]) {
     if (topology == Topology::points) return add_point(draw, v[0], true);
     if (topology == Topology::lines) return add_line(draw, v[0], v[1], true);
@@ -54,7 +54,7 @@ class Assembler {
         t.corners < 3 ? static_cast<int>(t.width) : 0);
   }
 
-  // A counting sort: numbers ascend within each tile.
+  // Counting sort of triangles by tile: numbers ascend within each tile.
   void fill_bins() {
     std::vector<std::uint32_t>& first = chunk_.first;
     first.assign(static_cast<std::size_t>(painting_.columns * painting_.rows) + 1, 0);
@@ -73,7 +73,7 @@ class Assembler {
     for (std::uint32_t n = 0; n < chunk_.count; ++n) {
       each_tile(boxes_[n], [&](std::uint32_t& next) { numbers[next++] = n; });
     }
-    // Each tile's first number has moved to the next tile's.
+    // Each tile's `first` has moved to the next tile's.
     for (std::size_t t = first.size() - 1; t > 0; --t) first[t] = first[t - 1];
     first[0] = 0;
   }
@@ -139,7 +139,7 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTria
     const std::span<const glm::uvec3> corners =
         std::span(work.mesh->triangles).subspan(begin - work.range.first_primitive, end - begin);
     const bool all_inside = (work.any_outside & (work.planes | kNotFinite | kNotDrawable)) == 0;
-    // add(i), of those that are wholly in the view volume.
+    // Calls add(i) for primitives wholly in the view volume, and add_others() in a clipped one's place.
     const auto each_inside = [&](std::size_t from, std::size_t to_end, auto add) {
       for (std::size_t i = from; i < to_end && all_inside; ++i) add(i);
       for (std::size_t i = from; i < to_end && !all_inside; ++i) {

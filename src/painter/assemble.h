@@ -1,5 +1,5 @@
-// Triangles of vertices that went through stages 1, 2 and 4 in lanes: trivial accept and reject (3), culling and
-// binning (4).
+// Assembly of primitives: trivial accept and reject (stage 3) and culling (stage 4) of those whose vertices went
+// through stages 1, 2 and 4 in lanes; the definition, for the others; and binning of all.
 #pragma once
 
 #include <span>
@@ -16,26 +16,27 @@ struct AssemblyWork {
   const Mesh* mesh;
   DrawRange range;
   std::uint8_t planes;          ///< outcode bits of the planes that cut (geometry.h)
-  const std::uint8_t* outside;  ///< null: its window triangles are all in `others`
+  const std::uint8_t* outside;  ///< outcodes of the draw's vertices; null: all its triangles are OtherTriangles
   std::uint8_t any_outside;     ///< OR of `outside[]` over the draw's vertices
 };
 
-/// Drawn face of a triangle.
+/// Facing of a triangle that is drawn; none: it is culled, or touches no tile.
 enum class Kept : std::int32_t { none, back, front };
 struct KeptTriangle {
   Kept kept;
   TileBox box;
 };
-/// One for each of `corners`, numbers of the mesh's vertices, of a draw of filled triangles (cull_lanes.h). Any value,
-/// where a corner is outside the view volume.
+/// Culls filled triangles (cull_lanes.h). `corners`: indices of the mesh's vertices; `to`: one result for each, without
+/// meaning where a corner is outside of the view volume.
 using CullTriangles = void (*)(const Painting& painting, const AssemblyWork& draw, std::span<const glm::uvec3> corners,
                                KeptTriangle* to);
 
-/// Stages 0 to 4 by the definition, of primitives that do not go through them in lanes (clipped triangles, for one).
-/// Its memory is kept from frame to frame.
+/// Stages 0 to 4 by the definition, of primitives that do not go through lanes (clipped ones, and whole draws:
+/// painter.h). The memory is kept from frame to frame.
 class ScalarGeometry {
  public:
-  /// `draws`: one for each of the scene's. Window triangles in draw order.
+  /// Window triangles of these primitives, in draw order; valid until the next call. `draws`: one for each of the
+  /// scene's.
   std::span<const ShadedTriangle> run(const Scene& scene, std::span<const AssemblyWork> draws);
 
  private:
@@ -43,7 +44,7 @@ class ScalarGeometry {
   void run_draw(const Scene& scene, const AssemblyWork& work, const Mesh& mesh);
 
   Mesh clipped_;                         // of one draw
-  std::vector<std::uint32_t> of_draw_;   // the draw's primitives, in the mesh
+  std::vector<std::uint32_t> of_draw_;   // indices, in the mesh, of the draw's primitives that find() chose
   std::vector<Vertex<float>> vertices_;  // of one draw
   std::vector<Attributes> attributes_;
   std::vector<ShadedTriangle> triangles_;
@@ -54,7 +55,8 @@ struct OtherTriangles {
   std::uint32_t first_vertex;  ///< vertex number of triangles[0]'s corner 0; each triangle has three of its own
 };
 
-/// The chunk's triangles, and which tiles they touch.
+/// Fills the chunk: its triangles, and the bins of the tiles that they touch. Throws std::length_error where the
+/// bins' sizes add up to 2^32 or more.
 void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTriangles& others, const Painting& painting,
               CullTriangles cull);
 

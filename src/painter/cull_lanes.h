@@ -1,5 +1,5 @@
-// Stage 4 of filled triangles whose corners are in the window, as many at a time as R has lanes: which way they face,
-// whether that culls them, and the tiles that they touch.
+// Stage 4 of filled triangles whose corners are in the view volume, as many at a time as R has lanes: facing, culling,
+// and the tiles of their bounding boxes.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void cull_triangles(const Painting& painting, const AssemblyWork& work, std::spa
   const auto [low_sample, high_sample] = painting.sample_bounds();
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
   const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
-  glm::uvec3 last[kLanes];  // lanes that are too many do as the last one
+  glm::uvec3 last[kLanes];  // surplus lanes repeat the last triangle
   for (std::size_t i = 0; i < count; i += kLanes) {
     const glm::uvec3* of_lane = corners.data() + i;
     if (count - i < kLanes) {

@@ -11,14 +11,16 @@
 
 namespace plumbline::pipeline {
 
-/// How a draw's triangles and lines are painted: paint_opaque.h and paint_lines.h have those that are commonest.
+/// Kernel that paints a draw. `any`: paint_run() (paint_tile.h), for any state and primitive. The others serve common
+/// states of filled triangles (paint_opaque.h) and of lines (paint_lines.h) in frames of rgba8 and z24; frames of other
+/// colours, and the targets float and SSE4, use paint_run() all the same.
 enum class PaintKernel { any, replaces, blends_over, depth_only, shades, lines };
 
-/// A draw, as tiles want it.
+/// Per-draw input of stages 5 to 11.
 struct PaintDraw {
   const Draw* draw;
   DepthState depth;
-  const Surface* surface;  ///< null: fragments have the interpolated colour
+  const Surface* surface;  ///< null: the fragments' colour is the interpolated one, or not needed (depth_only)
   PaintKernel kernel;
 
   bool flat() const { return draw->shading == Shading::flat; }
@@ -32,14 +34,14 @@ struct FragmentSetup {
   PerspectiveSetup perspective;
   AttributeSetup attributes;  ///< the colour's
 };
-/// A triangle's varyings, those that the surface carries.
+/// Per-triangle input of stages 7 to 9 in one tile, of a surface: the varyings that it carries.
 struct SurfaceSetup {
   const Surface* surface;
   std::array<AttributeSetup, kVaryings> varyings;
   GradientSetup gradients;  ///< of the texture coordinates, where there is a texture
 };
 
-/// Colour, every varying by the same weights, and the texel.
+/// Stages 7 and 8: colour, the surface's varyings, and the texel without its lod.
 template <class R>
 [[gnu::always_inline]] inline SurfaceAttributes<R> surface_attributes(const FragmentSetup& of, const SurfaceSetup& s,
                                                                       const Pixels<R>& p) {
@@ -58,9 +60,9 @@ template <class R>
   return out;
 }
 
-/// Whether a fragment's colour replaces what is there.
+/// Whether a fragment's colour replaces the stored one, in all channels.
 inline bool is_opaque(const Merge& state) { return !state.blend && !state.logic_op && glm::all(state.color_mask); }
-/// Depth and colour of the fragments `kept` into the frame.
+/// Stage 11: depth and colour of the fragments `kept` into the tile, at the addresses `to`.
 template <class R>
 [[gnu::always_inline]] inline void write(const Merge& state, Mask<R> kept, R z, const Color<R>& shaded,
                                          float color_scale, const auto& to) {
@@ -77,7 +79,8 @@ template <class R>
   to.template store_color<R>(kept, merged, state.color_mask);
 }
 
-/// Scissor and stages 6 to 11 of the fragments `covered` at the pixels `p`, whose stored values begin at `place`.
+/// Scissor and stages 6 to 11 of the fragments `covered` at the pixels `p`, whose values begin at index `place` of the
+/// tile's arrays.
 template <class R>
 void paint_fragments(const Draw& draw, const FragmentSetup& s, const std::optional<SurfaceSetup>& surface,
                      const Pixels<R>& p, Mask<R> covered, int place, float color_scale, auto& tile) {

@@ -1,5 +1,5 @@
-// One primitive as the definition's records have it; and stages 5 to 11, one at a time, of those that do not fit lanes
-// (set_up_lanes.h).
+// One primitive of the painter in the definition's records; and stages 5 to 11, pixel by pixel, of a primitive that
+// does not fit lanes (set_up_lanes.h).
 #pragma once
 
 #include <optional>
@@ -10,7 +10,8 @@
 
 namespace plumbline::pipeline {
 
-/// A triangle's varyings at its corners; of those that light made, flat shading takes the provoking one's.
+/// Values of a varying at a triangle's corners. Under flat shading those of a lit varying are the provoking vertex',
+/// corner 1's.
 inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
                                              Varying v) {
   const Vec4<float>* column = painting.varyings[static_cast<std::size_t>(v)];
@@ -18,7 +19,7 @@ inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const Pai
   return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
 }
 
-/// The triangle as stage 4 has it.
+/// The triangle as stage 4's record, but without its primitive's number (0).
 inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTriangle& t) {
   WindowTriangle out{{}, 0, t.front, t.corners, t.width};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -28,7 +29,8 @@ inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTr
   return out;
 }
 
-/// Varyings of a draw's triangle; none without a surface. `gradients`: of its texture coordinates, if it has a texture.
+/// Surface setup of a draw's triangle; none without a surface. `gradients`: of the texture coordinates; read only with
+/// a texture.
 inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const PaintDraw& draw,
                                                  const PaintTriangle& t, const GradientSetup& gradients) {
   if (draw.surface == nullptr) return {};
@@ -40,11 +42,12 @@ inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const
   return out;
 }
 
-/// Stages 5 to 11 of a triangle, line or point, pixel by pixel.
+/// Stages 5 to 11 of a triangle, line or point in the tile, pixel by pixel, under any state.
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, Tile& tile);
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, PackedTile& tile);
 
-/// Calls paint(painting, tile) for each sample: the painting with that sample alone, and the sample's tile.
+/// Calls paint(painting, tile) for each sample, with a copy of the painting that has this sample alone. `tiles`: one
+/// for each sample.
 template <int kSampleCount>
 void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
   if constexpr (kSampleCount == 1) return paint(painting, tiles[0]);

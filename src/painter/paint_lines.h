@@ -1,5 +1,5 @@
-// Stages 5 to 11 of lines of width 1 whose nearer fragments replace what is there, in frames of rgba8 and z24: as many
-// lines are set up, and coloured pixel by pixel, as there are lanes.
+// Stages 5 to 11 of lines whose nearer fragments replace the stored ones, in frames of rgba8 and z24. As many lines of
+// width 1 as there are lanes are set up together, and then coloured together, pixel by pixel.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace plumbline::pipeline {
 
-/// planes_of() a line (depth.cpp). Those of a line without length are not numbers, and it covers nothing.
+/// planes_of() of each lane's line (depth.cpp). NaN for a line without length, which covers nothing.
 template <class R>
 [[gnu::always_inline]] inline CornerPlanes<Wide<R>> planes_of_lines(const Vec4<R> (&p_win)[3], glm::ivec2 tile) {
   using W = Wide<R>;
@@ -22,14 +22,14 @@ template <class R>
   return planes;
 }
 
-/// Wider ones, and those that share their lanes, are painted alone.
+/// Paints a run of lines. Where one of a group of lanes is wider than 1, each of the group is painted alone.
 template <class R>
 void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile) {
   constexpr int kLanes = Lanes<R>::width;
   const PaintDraw& draw = painting.draws[run.draw];
   const glm::i64vec2 origin = std::int64_t{kSubpixel} * glm::i64vec2(tile.x0, tile.y0);
   LanesOfRun<R, 1> lines(painting, run, false, tile.x0, tile.y0);
-  alignas(64) std::int32_t pixel_of[kTile][kLanes] = {};  // x + kTile y; behind a line's last, whichever were there
+  alignas(64) std::int32_t pixel_of[kTile][kLanes] = {};  // x + kTile y; stale behind a line's last pixel
   while (lines.next()) {
     bool all_fit = true;
     for (int lane = 0; lane < lines.count; ++lane) all_fit &= lines.triangle(lane).width == 1;

@@ -15,10 +15,10 @@
 namespace plumbline::pipeline {
 
 /// Fast-path class of a triangle (LaneTriangles). `nothing`: clamp depth and guard 1/w. `one_color`: depth needs no
-/// clamp, the colour is constant. `colors`: neither clamp nor guard.
+/// clamp; the colour is constant, or not computed here. `colors`: neither clamp nor guard; alpha is constant.
 enum class Plain { nothing, one_color, colors };
 
-/// One run of triangles in one tile.
+/// Paints one run of filled triangles into one tile.
 template <class R, PaintKernel kKernel, int kSamples>
 class OpaqueRun {
  public:
@@ -53,11 +53,11 @@ class OpaqueRun {
 
  private:
   static constexpr int kLanes = Lanes<R>::width;
-  static constexpr int kSmall = 30;  // pixels of a box: as many bits a float's exponent tells apart
-  static constexpr bool kFromEither = kKernel == PaintKernel::replaces && kSamples == 1;  // paint_first_runs()
+  static constexpr int kSmall = 30;  // pixels of a small box, a bit each of a positive int (visit_pixels)
+  static constexpr bool kFromEither = kKernel == PaintKernel::replaces && kSamples == 1;  // from_last may be set
   static constexpr bool kDepthFirst = kKernel == PaintKernel::depth_only || kKernel == PaintKernel::shades;
 
-  // All lanes' triangles at once, where their boxes are small.
+  // Paints all lanes' triangles at once, where their boxes are small; else paints nothing and returns false.
   bool paint_together() {
     const auto& lanes = lanes_.lanes;
     const int box = std::max(lanes.width, 0) * std::max(lanes.height, 0);
@@ -70,7 +70,7 @@ class OpaqueRun {
     return true;
   }
 
-  // Lanes whose triangles cover a pixel; where boxes are not small, all.
+  // Bit mask of the lanes whose triangles cover a pixel; of all lanes, where boxes are not small.
   unsigned covering_lanes() const {
     const auto& lanes = lanes_.lanes;
     if (lanes.width <= 0 || lanes.height <= 0) return 0;
@@ -109,7 +109,8 @@ class OpaqueRun {
     paint_triangle<Plain::nothing, kInBlocks>(s, shaded);
   }
 
-  // `shaded`: of PaintKernel::shades. `kInBlocks`: PerspectiveSetup.
+  // Paints a lane's triangle block by block. `shaded`: collects the pixels of PaintKernel::shades, else null.
+  // `kInBlocks`: PerspectiveSetup::in_blocks.
   template <Plain kPlain, bool kInBlocks = false>
   [[gnu::always_inline]] void paint_triangle(const LaneSetup<kSamples>& s,
                                              [[maybe_unused]] ShadedPixels<R, kSamples>* shaded) {
@@ -148,15 +149,15 @@ class OpaqueRun {
         for (int k = 0; k < kPlanes; ++k) of_row[k][part] = plane[k]->at_0 + dy * plane[k]->y;
       }
     };
-    R in_block[3][kParts<R>];  // what the weights' planes add there
+    R in_block[3][kParts<R>];  // added_in_block() of the weights' planes
     for (int k = 0; k < 3 && kColors && kInBlocks; ++k) {
       for (int part = 0; part < kParts<R>; ++part) {
         const auto of_part = [&](const auto& table) { return to_float(Lanes<R>::load(table + part * kLanes)); };
         in_block[k][part] = added_in_block(*weight_plane[k], of_part(kColumnInBlock), of_part(kRowInBlock));
       }
     }
-    // Weights at the first pixels of a group's blocks. Bounds of depth codes in its whole blocks: the plane's at the
-    // corner where it is farthest, and a code for its rounding.
+    // Per block of a group: the weights' planes at its first pixel; and, if it is whole, an upper bound of its depth
+    // codes: the plane's value at the farthest corner, plus one code for rounding.
     alignas(64) float weight_ahead[3][kLanes], farthest_ahead[kLanes];
     const auto ahead = [&](int x, int y, const BlockGroup<R>& group, bool any_whole) {
       if constexpr (kColors && kInBlocks) {
@@ -252,7 +253,7 @@ class OpaqueRun {
     }
   }
 
-  // Pixels that the triangles cover in their boxes of lanes.width x lanes.height: a bit each, row by row.
+  // Pixels that each lane's triangle covers: one bit each, row by row, of a box of lanes.width x lanes.height pixels.
   Int<R> covered_in_boxes(int sample) const {
     const auto& lanes = lanes_.lanes;
     using I = Int<R>;
@@ -278,7 +279,8 @@ class OpaqueRun {
     return covered;
   }
 
-  // Calls visit(i, x, y, lanes that have one) for the lanes' i-th pixels of those.
+  // Calls visit(i, x, y, mask) for i from 0 to most - 1: (x, y) is each lane's i-th covered pixel, `mask` the lanes
+  // that have one.
   void visit_pixels(Int<R> covered, int most, auto visit) const {
     using I = Int<R>;
     const auto& lanes = lanes_.lanes;
@@ -293,7 +295,7 @@ class OpaqueRun {
     }
   }
 
-  // How many pixels each lane covers, and the most.
+  // Number of covered pixels of each lane, and the greatest.
   struct Counts {
     explicit Counts(const Int<R>& covered) {
       alignas(64) std::int32_t covered_of[kLanes];
@@ -306,7 +308,7 @@ class OpaqueRun {
     int of[kLanes], most = 0;
   };
 
-  // The pixels that the triangles cover, one of each at a time (paint_pixels.h).
+  // Paints triangles of small boxes, one pixel of each lane at a time (paint_pixels.h).
   template <bool kPlain>
   void paint_small(int sample) {
     const Int<R> covered = covered_in_boxes(sample);
@@ -325,7 +327,7 @@ class OpaqueRun {
   bool shade_small() {
     const Int<R> covered = covered_in_boxes(0);
     const Counts counts(covered);
-    int alone = 0, front = 0;  // times that pixels are shaded of one triangle after the other; front faces
+    int alone = 0, front = 0;  // calls of shade() triangle by triangle; number of front faces
     for (int lane = 0; lane < lanes_.count; ++lane) {
       alone += (counts.of[lane] + kLanes - 1) / kLanes;
       front += lanes_.triangle(lane).front ? 1 : 0;

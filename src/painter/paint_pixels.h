@@ -1,5 +1,5 @@
-// Single pixels of as many triangles or lines as there are lanes: each one's first pixel, its second and so on, all at
-// once; then, one triangle after the other, these into the tile.
+// Single pixels of as many triangles or lines as there are lanes: first the values of all lanes' first pixels together,
+// of their second pixels, and so on; then the pixels are written to the tile, one primitive after the other.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@ namespace plumbline::pipeline {
 
 inline constexpr double kMostZ24 = 16777215;  ///< the largest code
 
-/// mean(), where 1/w is not near 0 and the corners have the same alpha.
+/// mean() of a colour with the same alpha at all corners, where 1/w is not near 0.
 template <class R>
 [[gnu::always_inline]] inline Color<R> plain_color(const auto& s, const R& q1, const R& q2, const R& sum,
                                                    const R& alpha) {
@@ -19,15 +19,15 @@ template <class R>
   return {Vec3<R>(mixed<R>(s, k)), alpha};
 }
 
-/// Whose colours the pixels have: none, the triangles' own, or set_codes()'.
+/// Source of the pixels' colours: none is written, the interpolated colour, or set_codes().
 enum class PixelColors { none, own, given };
 
-/// Fragments of rgba8 and z24 that replace what is there where they are nearer. `kPlain`: LaneTriangles' of all lanes;
-/// `kMost`: pixels of each.
+/// Fragments of rgba8 and z24 that replace the stored ones where they are nearer. `kPlain`: all lanes have plain_depth
+/// and plain_color (LaneTriangles). `kMost`: greatest number of pixels per lane.
 template <class R, PixelColors kColors, bool kPlain, int kMost>
 class PixelsOfLanes {
  public:
-  /// `sample`: of which depths are taken.
+  /// `sample`: index of the sample whose depths are taken.
   template <int kSampleCount>
   [[gnu::always_inline]] PixelsOfLanes(const LaneTriangles<R, kSampleCount>& lanes, int sample)
       : code_(lanes.code[sample].of_all()),
@@ -36,7 +36,7 @@ class PixelsOfLanes {
         sum_(lanes.sum.of_all()),
         color_(colors_of<R>(lanes)) {}
 
-  /// Each lane's i-th pixel, counted from the tile.
+  /// Computes each lane's i-th pixel; (x, y): in the tile.
   [[gnu::always_inline]] void work_out(int i, const Int<R>& x, const Int<R>& y) {
     using W = Wide<R>;
     const Offset<R> at{to_wide(x), to_wide(y)};
@@ -57,7 +57,7 @@ class PixelsOfLanes {
     }
   }
 
-  /// Whether the i-th pixel is nearer than what is there in any of the lanes, a bit each.
+  /// Whether the i-th pixel of any of the lanes `of_lanes` (a bit each) is nearer than the stored one.
   [[gnu::always_inline]] bool any_nearer(int i, unsigned of_lanes, const PackedTile& tile) const {
     for (; of_lanes != 0; of_lanes &= of_lanes - 1) {
       const int lane = std::countr_zero(of_lanes);

@@ -1,5 +1,5 @@
-// Stages 7 to 11 of a triangle's fragments that are coloured by a surface and replace what is there. Those that passed
-// the depth test are collected from their blocks, so that as many are shaded at a time as there are lanes.
+// Stages 7 to 11 of a triangle's fragments that are coloured by a surface and replace the stored colour. Fragments that
+// passed the depth test are collected from their blocks, so that every lane shades one.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace plumbline::pipeline {
 
-/// A triangle's: add() them block by block, then finish(). A pixel is shaded once for all of its samples.
+/// Collector of one triangle's pixels: add() block by block, then finish(). A pixel is shaded once for all its samples.
 template <class R, int kSampleCount>
 class ShadedPixels {
  public:
@@ -19,7 +19,7 @@ class ShadedPixels {
                const LaneSetup<kSampleCount>& setup, PackedTile* tiles)
       : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tiles_(tiles) {}
 
-  /// Adds the pixels `kept` of a part of a block, which begins at `place`.
+  /// Adds the pixels `kept` of the part of a block that begins at index `place` of the tile's arrays.
   void add(int place, const std::array<Mask<R>, kSampleCount>& kept) {
     Mask<R> any_kept = kept[0];
     for (std::size_t i = 1; i < kSampleCount; ++i) any_kept = any_kept | kept[i];
@@ -71,7 +71,7 @@ class ShadedPixels {
   const PaintTriangle& triangle_;
   const LaneSetup<kSampleCount>& setup_;
   PackedTile* tiles_;
-  std::optional<SurfaceSetup> surface_;  ///< when the first is shaded
+  std::optional<SurfaceSetup> surface_;  ///< set when the first pixel is shaded
   std::int32_t places_[2 * kLanes];
   bool kept_[2 * kLanes][kSampleCount];
   int count_ = 0;

@@ -1,5 +1,5 @@
-// Stages 5 to 11 of a tile, as the painter does them: triangles set up in lanes, blocks in rows. Draws whose nearer
-// fragments replace what is there, which most are, have a kernel of their own (paint_opaque.h).
+// Stages 5 to 11 of a tile: its runs of triangles, each by its draw's kernel (paint_opaque.h, paint_lines.h) or by
+// paint_run(), which serves any state; then the tile is written to the frame.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace plumbline::pipeline {
 
-/// A lane's depth, with what of the draw's state changes it.
+/// Depth plane of a lane's triangle, with the draw's clamp range and polygon offset. `code`: without the offset.
 inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
                                 const Affine<double>& code, int x0, int y0) {
   const double scale = painting.formats.depth_scale, unit = scale == 0 ? 1 : scale;
@@ -21,7 +21,7 @@ inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw,
   return at_offset(depth_plane(depth_setup(record, draw.depth), planes_of(record, x0, y0)), painting.formats.sample);
 }
 
-/// Paints the triangles, lines and points of the run, whatever the draw's state.
+/// Paints the triangles, lines and points of the run, under any state.
 template <class R>
 void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   const PaintDraw& draw = painting.draws[run.draw];
@@ -50,14 +50,15 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   }
 }
 
-/// Whether both draws' triangles may be of one run: of one kernel and shading. No other state changes what such kernels
-/// do.
+/// Whether triangles of both draws may be in one run: kernel and shading are the same, and the kernel depends on no
+/// other state.
 inline bool can_share_run(const PaintDraw& a, const PaintDraw& b) {
   return a.kernel == b.kernel && a.flat() == b.flat() && a.kernel != PaintKernel::any &&
          a.kernel != PaintKernel::shades;
 }
 
-/// The tile's triangles, chunk by chunk and draw by draw; those of draws that can share a run together.
+/// Runs of the tile's triangles, in draw order: per chunk, one for each draw, or for consecutive draws that can share
+/// one.
 inline void find_runs(const Painting& painting, std::size_t tile, std::vector<PaintRun>& runs) {
   runs.clear();
   for (const Chunk& chunk : painting.chunks) {
@@ -77,8 +78,9 @@ inline void find_runs(const Painting& painting, std::size_t tile, std::vector<Pa
   }
 }
 
-/// Paints the tile's first runs of PaintKernel::replaces, from the last to the first, if that is from near to far;
-/// returns how many.
+/// Paints the tile's first runs of PaintKernel::replaces from the last triangle to the first, where the last triangle's
+/// first corner is nearer than the first triangle's: then this order is likely front to back. Returns the number of
+/// runs painted; 0, too, where the frame has a long edge, for paint_alone() knows no reversed order.
 template <class R>
 std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun> runs, PackedTile& tile) {
   const auto opaque = [&](const PaintRun& run) { return painting.draws[run.draw].kernel == PaintKernel::replaces; };
@@ -123,7 +125,7 @@ void paint_by_kernel(const Painting& painting, const PaintRun& run, PackedTile* 
   }
 }
 
-/// `tiles`: of each sample one.
+/// Paints the run by its draw's kernel, or by paint_run(). `tiles`: one for each sample.
 template <class R, int kSampleCount>
 void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
   const PaintDraw& draw = painting.draws[run.draw];
@@ -142,7 +144,7 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* t
   });
 }
 
-/// Whether the tile's part of the frame is colours and depth codes in whole lanes.
+/// Whether rows of the tile at column x0 are whole vectors, and the frame has codes of colour and depth and no stencil.
 template <class R>
 bool has_whole_lanes(const Frame& frame, int x0) {
   constexpr int kLanes = Lanes<R>::width;
@@ -150,7 +152,7 @@ bool has_whole_lanes(const Frame& frame, int x0) {
   return kLanes >= kBlock && columns % kLanes == 0 && !frame.depth_code.empty() && frame.stencil.empty();
 }
 
-/// Writes the tile's part of a plane of 32-bit pixels; values_at(x, y) gives the lanes of a row from (x, y) of the tile
+/// Writes the tile's part of a plane of 32-bit pixels. values_at(x, y): the row's next vector from (x, y) of the tile
 /// on. Where every row is aligned to a vector, stores bypass the caches, which are smaller than a frame.
 template <class R>
 void write_lanes(auto& plane, int x0, int y0, auto values_at) {
@@ -170,7 +172,7 @@ void write_lanes(auto& plane, int x0, int y0, auto values_at) {
   }
 }
 
-/// write_out(), lanes of a row at once; one plane after the other, for twice as many streams of memory are slower.
+/// write_out(), by vectors where rows are whole ones; one plane after the other, for two streams of stores are slower.
 template <class R>
 void copy_out(PackedTile& tile, Frame& frame) {
   if (!has_whole_lanes<R>(frame, tile.x0)) return write_out(tile, frame);
@@ -183,7 +185,7 @@ void copy_out(PackedTile& tile, Frame& frame) {
   Lanes<R>::end_of_stream();
 }
 
-/// A tile in which nothing is painted. False: not in whole lanes, and not written.
+/// Writes a tile without triangles to the frame. Returns false, and writes nothing, unless has_whole_lanes().
 template <class R>
 bool clear_out(const Painting& painting, int x0, int y0, Frame& frame) {
   if (!has_whole_lanes<R>(frame, x0)) return false;
@@ -195,6 +197,7 @@ bool clear_out(const Painting& painting, int x0, int y0, Frame& frame) {
   return true;
 }
 
+/// Fills the tile with the frame's clear values.
 template <class R>
 void clear(auto& tile, const Painting& painting) {
   const FrameFormat& frame = painting.format;
@@ -210,7 +213,7 @@ void clear(auto& tile, const Painting& painting) {
   }
 }
 
-/// mean_of_four() (resolve.h) of the samples' codes, into the first's.
+/// Stage 12: mean_of_four() (resolve.h) of the samples' codes, into samples[0]. Its depths stay the first sample's.
 template <class R>
 void resolve_samples(PackedTile (&samples)[4]) {
   const R code(1.0f / 255.0f);
@@ -222,7 +225,7 @@ void resolve_samples(PackedTile (&samples)[4]) {
   }
 }
 
-/// The tile, from clear to the frame.
+/// Stages 5 to 12 of tile `number`, from its clear values into the frame.
 template <class R>
 void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame& frame) {
   const int x0 = number % painting.columns * kTile, y0 = number / painting.columns * kTile;

@@ -18,7 +18,7 @@ Int<R> outside_planes(const Vec4<R>& p) {
          bit(p.z <= p.w, 32);
 }
 
-/// Vertices from the i-th on; returns their outcodes.
+/// Vertices i to i + width - 1 of the draw; returns their outcodes.
 template <class R>
 Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   constexpr int kLanes = Lanes<R>::width;
@@ -40,7 +40,7 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
     p_win[k] = fused(p_clip[k] * inv_w, R(work.matrices.win_scale[k]), R(work.matrices.win_translate[k]));
   }
   const auto near = [](R value) { return greater_of(value, -value) <= R(1 << 20); };
-  const auto nothing = [](R value) { return value - value; };  // 0, but for what is not finite
+  const auto nothing = [](R value) { return value - value; };  // 0 of a finite value, else NaN
   const Mask<R> x_near = near(p_win.x), y_near = near(p_win.y);
   const Mask<R> drawable = x_near & y_near & (nothing(p_win.z) + nothing(inv_w) == R(0));
   const R of_all = nothing(p_clip.x) + nothing(p_clip.y) + nothing(p_clip.z) + nothing(p_clip.w);

@@ -20,7 +20,7 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// Whether a draw's vertices go through stages 1, 2 and 4 in lanes; the others' through their definition.
+// Whether a draw's vertices go through stages 1, 2 and 4 in lanes; else they go through the definition's.
 bool goes_in_lanes(const Scene& scene, const Draw& draw) {
   const Mesh& mesh = scene.meshes[draw.mesh];
   const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
@@ -30,7 +30,7 @@ bool goes_in_lanes(const Scene& scene, const Draw& draw) {
          !carries(scene, draw, Varying::back_color) && !carries(scene, draw, Varying::back_secondary);
 }
 
-// Whether every face that is not culled is drawn in this mode.
+// Whether every facing that is not culled is drawn in this mode.
 bool draws_as(const Draw& draw, PolygonMode mode) {
   return (draw.cull == Cull::front || draw.front_mode == mode) && (draw.cull == Cull::back || draw.back_mode == mode);
 }
@@ -53,7 +53,8 @@ PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const DepthState& dept
   return over && !has_surface ? PaintKernel::blends_over : PaintKernel::any;
 }
 
-// Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.
+// Whether a frame of four samples is drawn in one pass, each tile with all samples. Other antialiased frames are
+// resolved from one frame per pass.
 bool takes_samples(const FrameFormat& frame) {
   return frame.antialias.kind == Antialias::Kind::multisample && frame.color == ColorFormat::rgba8 &&
          frame.stencil == StencilFormat::none;
@@ -61,14 +62,14 @@ bool takes_samples(const FrameFormat& frame) {
 
 }  // namespace
 
-// Frames that are kept while scenes have the same planes.
+// Frames that are kept from scene to scene, while size and formats stay the same.
 class KeptFrames {
  public:
   std::vector<Frame>& of(const FrameFormat& format, std::size_t count) {
     const auto planes =
         std::tuple(format.width, format.height, format.color, format.depth, format.stencil == StencilFormat::none);
     if (frames_.size() != count || planes_ != planes || frames_[0].empty()) {
-      frames_.clear();  // should there be no memory, none are left that are of another format
+      frames_.clear();  // before the assignment, which may throw: no frame of the old format is left
       frames_.assign(count, Frame(format));
       planes_ = planes;
     }
@@ -85,7 +86,7 @@ struct Painter::Memory {
   Memory(int thread_count, const SimdTarget& of)
       : threads(std::clamp(thread_count, 1, kMostThreads)), target(of), arena(threads) {
     if (threads > tbb::info::default_concurrency()) {
-      // Else there are no more workers than processors, for all of the process.
+      // TBB starts no more workers than processors, unless this limit of the whole process is higher.
       static const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, kMostThreads);
     }
     for (int i = 0; i < threads; ++i) tiles.push_back(std::make_unique_for_overwrite<TileMemory>());
@@ -93,7 +94,7 @@ struct Painter::Memory {
 
   void draw_pass(const Scene& scene, Frame& to);
 
-  // f(0) to f(count - 1), on the threads.
+  // Calls f(0) to f(count - 1), on the threads, in any order.
   template <class F>
   void each(std::size_t count, F f) {
     if (threads == 1) {
@@ -101,7 +102,7 @@ struct Painter::Memory {
       return;
     }
 #ifdef __SANITIZE_THREAD__
-    // ThreadSanitizer does not see how TBB's library orders what its threads do, and would report all of it.
+    // ThreadSanitizer does not see how TBB synchronises its threads, and would report races everywhere.
     std::atomic<std::size_t> next{0};
     std::vector<std::jthread> workers;
     for (int t = 0; t < threads; ++t) {
@@ -142,7 +143,7 @@ struct Painter::Memory {
   std::vector<Chunk> chunks;
   std::vector<PaintVertex> vertices;
   std::vector<std::uint8_t> outside;
-  std::vector<Varying> carried_varyings;  // by any draw's fragments
+  std::vector<Varying> carried_varyings;  // of any draw's fragments
   std::array<std::vector<Vec4<float>>, kVaryings> varyings;
   std::size_t vertex_count = 0;
 
@@ -167,7 +168,7 @@ void Painter::Memory::prepare(const Scene& scene) {
     const DepthState depth = depth_state(draw, scene.frame.depth, scene.depth_clamp);
     const bool plain = is_plain(scene, draw);
     const PaintKernel kernel = kernel_of(scene.meshes[draw.mesh], draw, depth, !plain);
-    const bool colors = !plain && kernel != PaintKernel::depth_only;  // which nothing asks for colours
+    const bool colors = !plain && kernel != PaintKernel::depth_only;  // depth_only shades no fragment
     draws.push_back({&draw, depth, colors ? &surfaces[d] : nullptr, kernel});
   }
   painting.draws = draws;
@@ -225,7 +226,7 @@ void Painter::Memory::run_vertices(const Scene& scene) {
   for (const Share& share : shares) assembly[share.draw].any_outside |= share.outside;
 }
 
-// Stages 0 to 4 by the definition, of primitives that do not go in lanes.
+// Stages 0 to 4 by the definition, of primitives that do not go in lanes; their vertices are put behind the others'.
 void Painter::Memory::run_others(const Scene& scene) {
   const std::span<const ShadedTriangle> triangles = scalar_geometry.run(scene, assembly);
   others = {triangles, static_cast<std::uint32_t>(vertex_count)};
@@ -241,7 +242,7 @@ void Painter::Memory::run_others(const Scene& scene) {
   }
 }
 
-// Stages 3 and 4, in shares.
+// Stages 3 and 4, in chunks.
 void Painter::Memory::run_triangles() {
   painting.vertices = vertices.data();
   for (std::size_t i = 0; i < kVaryings; ++i) painting.varyings[i] = varyings[i].data();
@@ -261,7 +262,7 @@ void Painter::Memory::run_triangles() {
 }
 
 void Painter::Memory::run_tiles(Frame& to) {
-  // For every thread, whether or not it has had a tile yet.
+  // Reserved for all threads at once: a thread that first gets a tile in a later frame allocates nothing then.
   std::size_t runs = 0;
   for (const Chunk& chunk : painting.chunks) runs += chunk.draws.size();
   for (const auto& memory : tiles) memory->runs.reserve(runs);

@@ -1,7 +1,7 @@
 // The fast path from a scene to its frame: stages 0 to 12 in SIMD lanes and on threads, in memory that is kept from
 // frame to frame. render() (pipeline/render.h) defines its bits.
 //
-//   vertices (paint_vertices.h)   stages 1, 2 and 4, each once, as many at a time as there are lanes
+//   vertices (paint_vertices.h)   stages 1, 2 and 4 of each vertex once, as many at a time as there are lanes
 //   triangles (assemble.h)        culled and put into bins of tiles, in shares ("chunks") of the scene's primitives
 //   tiles (paint_tile.h)          stages 5 to 11, each tile by one thread, triangles in draw order
 //
@@ -18,26 +18,29 @@
 
 namespace plumbline::pipeline {
 
-/// The painter's kernels, of which the machine's are chosen at run time. Each draws the same bits.
+/// Kernels of the painter, compiled for one instruction set. All targets draw the same bits.
 struct SimdTarget {
   std::string_view name;  ///< "float" (one vertex, triangle or pixel at a time), "sse4", "avx2", "avx512"
-  /// Vertices [from, to) of a draw; returns the OR of their outcodes.
+  /// Stages 1, 2 and 4 of vertices [from, to) of a draw; returns the OR of their outcodes.
   std::uint8_t (*vertices)(const VertexWork& work, std::size_t from, std::size_t to);
   CullTriangles cull;
-  /// A tile of the frame.
+  /// Stages 5 to 12 of tile `number` (counted row by row), from its clear values into `frame`.
   void (*tile)(const Painting& painting, int number, TileMemory& memory, Frame& frame);
 };
-/// Targets that this machine has, the widest last.
+/// Targets that this machine can run, the widest last. Static memory.
 std::span<const SimdTarget> simd_targets();
 
+/// Threads and memory that draw scenes, one call of draw() at a time.
 class Painter {
  public:
-  /// `threads`: from 1 to 256; beyond, the nearer of them.
+  /// `threads`: clamped to [1, 256]. `target` must outlive the painter.
   explicit Painter(int threads = 1, const SimdTarget& target = simd_targets().back());
   ~Painter();
 
-  /// The frame is the painter's, until it draws the next; a caller may move it away. Another scene each time is fine.
-  /// Its meshes' arrays are as long as scene.h says, normals as many as positions: nothing checks it here.
+  /// Frame of the scene. The frame belongs to the painter and is overwritten by the next call; a caller may move it
+  /// away. Not checked: that the arrays of the scene's meshes have the lengths that scene.h says. Throws
+  /// std::invalid_argument where the projection is not one of the scene's dialect, std::length_error as assemble()
+  /// does.
   Frame& draw(const Scene& scene);
 
  private:
@@ -45,7 +48,7 @@ class Painter {
   std::unique_ptr<Memory> memory_;
 };
 
-/// The frame by a painter of one thread, with the widest SIMD target.
+/// Frame of the scene by a new painter of one thread, with the widest target.
 Frame paint(const Scene& scene);
 
 }  // namespace plumbline::pipeline

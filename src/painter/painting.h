@@ -1,5 +1,5 @@
-// What the painter's steps hand on (painter.h): vertices in one array, triangles as three of its numbers, bins of
-// triangles' numbers. Its memory is kept from frame to frame.
+// Data that the painter's steps (painter.h) hand on: vertices in one array, triangles as three indices of vertices,
+// bins of indices of triangles. The memory is kept from frame to frame.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace plumbline::pipeline {
 
-/// Room for `count` values in memory that only grows; what is there stays.
+/// Data of `values`, grown to at least `count` values; existing values stay.
 template <class T>
 T* room_for(std::size_t count, std::vector<T>& values) {
   if (count > values.size()) values.resize(count);
   return values.data();
 }
 
-/// Where a tile keeps its pixel (x, y), as pixel_offset() has it, of integers or lanes; and back.
+/// pixel_offset() (tile.h) of integers or lanes: the index in a tile's arrays of its pixel (x, y); and its inverses.
 template <class I>
 [[gnu::always_inline]] inline I place_in_tile(const I& x, const I& y) {
   const I within(kBlock - 1);
@@ -42,7 +42,7 @@ template <class I>
 inline constexpr std::uint8_t kNotFinite = 1 << 6;    ///< bit 6: a coordinate is not finite
 inline constexpr std::uint8_t kNotDrawable = 1 << 7;  ///< bit 7: outside the drawable window range (geometry.h)
 
-/// A vertex in window space, as lanes load it.
+/// Vertex in window space, in the layout that lanes load and store: 40 bytes, floats and 32-bit integers.
 struct PaintVertex {
   Vec3<float> p_win;
   float inv_w;
@@ -50,60 +50,60 @@ struct PaintVertex {
   Vec4<float> color;
 };
 
-/// A draw whose vertices go through stages 1, 2 and 4 at once, as many as there are lanes.
+/// Per-draw input and output of stages 1, 2 and 4 in lanes. Output arrays have one entry per vertex of the draw.
 struct VertexWork {
   const Mesh* mesh;
   Matrices<float> matrices;
-  Mat4<float> to_clip;
-  bool normalizes;       ///< normals are divided by their own length
-  float normal_divisor;  ///< else by this
-  bool wants_normals;
+  Mat4<float> to_clip;  ///< clip_matrix()
+  bool normalizes;      ///< normals are divided by their length, else by normal_divisor
+  float normal_divisor;
+  bool wants_normals;                         ///< light or a varying needs n_eye
   const Illumination* illumination;           ///< null: vertices have the mesh's colours, or `color`
-  Reflectance<float> reflectance, secondary;  ///< as LitPart
-  glm::vec4 color;
+  Reflectance<float> reflectance, secondary;  ///< of the front's LitParts
+  glm::vec4 color;                            ///< unlit vertices without colours, [0,1]
   PaintVertex* out;
-  std::uint8_t* outside;
+  std::uint8_t* outside;                         ///< outcodes
   std::array<Vec4<float>*, kVaryings> varyings;  ///< null: not carried
 };
 
-/// A window triangle (stages.h), its corners by number.
+/// Window triangle, line or point (window_triangle.h), its corners as indices of Painting::vertices.
 struct PaintTriangle {
   std::uint32_t corner[3];
   bool front;
   std::uint8_t corners;
   std::uint16_t width;
 };
-/// The tiles that it touches, last ones included.
+/// Tiles that a primitive may touch: columns x0 to x1 and rows y0 to y1, both included.
 struct TileBox {
   std::uint8_t x0, y0, x1, y1;
 };
 
-/// In 1/256 pixel: triangles with longer edges do not fit lanes (set_up_lanes.h).
+/// Longest edge, along x or y, of a triangle that fits lanes [1/256 pixel] (set_up_lanes.h).
 inline constexpr std::int32_t kLongestEdge = 1 << 22;
 
-/// A share of the scene's primitives, in draw order, and its own bins.
+/// Share of the scene's primitives, [first_primitive, end_primitive): its triangles in draw order, and their bins.
 struct Chunk {
   std::uint32_t first_primitive, end_primitive;
-  std::vector<PaintTriangle> triangles;
-  std::vector<TileBox> boxes;
+  std::vector<PaintTriangle> triangles;  ///< `count` are in use
+  std::vector<TileBox> boxes;            ///< beside triangles
   std::uint32_t count = 0;
-  bool any_long_edge = false;  ///< whether any may have an edge longer than kLongestEdge
+  bool any_long_edge = false;  ///< whether a triangle has an edge longer than kLongestEdge
   struct OfDraw {
-    std::uint32_t draw, end;  ///< its triangles end there
+    std::uint32_t draw, end;  ///< the draw's number, and the end of its triangles
   };
-  std::vector<OfDraw> draws;
-  std::vector<std::uint32_t> first;  ///< tile t has [first[t], first[t + 1]) of numbers
-  std::vector<std::uint32_t> numbers;
+  std::vector<OfDraw> draws;           ///< draws with triangles, in draw order
+  std::vector<std::uint32_t> first;    ///< the bin of tile t is [first[t], first[t + 1]) of numbers
+  std::vector<std::uint32_t> numbers;  ///< of triangles, ascending within a bin
 };
 
 /// Triangles of one chunk in a tile, of one draw or of consecutive draws that can_share_run() (paint_tile.h).
 struct PaintRun {
-  std::uint32_t draw;  ///< the first of them
+  std::uint32_t draw;  ///< the first of the draws
   const PaintTriangle* triangles;
-  std::span<const std::uint32_t> numbers;
+  std::span<const std::uint32_t> numbers;  ///< indices of `triangles`, in draw order
 };
 
-/// All that the tiles of a frame are painted from.
+/// Input of stages 5 to 11 of all tiles of a frame.
 struct Painting {
   FrameFormat format;
   Formats formats;
@@ -115,9 +115,9 @@ struct Painting {
   std::array<const Vec4<float>*, kVaryings> varyings;  ///< beside vertices
   std::span<const Chunk> chunks;
   std::span<const PaintDraw> draws;
-  bool any_long_edge;  ///< Chunk's
+  bool any_long_edge;  ///< OR of the chunks'
 
-  /// Bounds of the samples.
+  /// Least and greatest sample offsets in x and y [1/256 pixel].
   std::pair<glm::ivec2, glm::ivec2> sample_bounds() const {
     glm::ivec2 low = samples[0], high = low;
     for (const glm::ivec2& sample : samples) low = glm::min(low, sample), high = glm::max(high, sample);
@@ -127,7 +127,7 @@ struct Painting {
   double clear_code() const { return depth_code(format.clear_depth, formats.depth_scale); }
 };
 
-/// A thread's own.
+/// Working memory of one thread.
 struct TileMemory {
   alignas(64) Tile tile;
   alignas(64) PackedTile packed[4];  ///< one, or one for each sample

@@ -8,7 +8,7 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// The primitives of `from`, with vertices of their own.
+// Copies primitives of `from`, each with vertices of its own.
 void copy_primitives(const Mesh& from, std::span<const std::uint32_t> primitives, Mesh& to) {
   to.topology = from.topology;
   to.positions.clear(), to.normals.clear(), to.colors.clear(), to.texcoords.clear();

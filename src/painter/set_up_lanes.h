@@ -1,4 +1,5 @@
-// Triangles made ready for a tile, as many at a time as R has lanes: what paint_alone() (lone_triangle.h) makes of one.
+// Setup of triangles for one tile, as many at a time as R has lanes: edge functions, planes, and the bounds that choose
+// a fast path. paint_alone() (lone_triangle.h) sets up one triangle by the definition's functions.
 #pragma once
 
 #include "painter/painting.h"
@@ -8,23 +9,25 @@ namespace plumbline::pipeline {
 /// Edge functions as 32-bit integers, counted from the tile: -1 - floor(E / 256), exact in sign because E's steps are
 /// multiples of 256. E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x + step_y y < 0, so a pixel is inside
 /// where the "and" of the three is negative. Values are clamped to +-2^30: |step| <= 2^22, so that 64 x 64 pixels
-/// change a value by less than 2^29, and a clamped value keeps its sign. Edges longer than kLongestEdge do not fit:
-/// they come from corners cut at a tiny w, which rounding may move far outside the frame.
-inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
+/// change a value by less than 2^29, and a clamped value keeps its sign. Edges longer than kLongestEdge (painting.h) do
+/// not fit: they come from corners cut at a tiny w, which rounding may move far outside the frame.
+inline constexpr std::int32_t kFarEdge = 1 << 30;
 
-/// A triangle in its lane. Edges and depths are taken at each of the pixel's samples, which differ but in what is added
-/// there; `at_tile` is the least of `at_sample`, so that a pixel outside of it is outside for all samples.
+/// Setup of one lane's triangle. Edge functions and depth planes of a pixel's samples differ in their constant alone;
+/// `at_tile` is the least of `at_sample`, so that a pixel outside by it is outside for all samples. Of the
+/// FragmentSetup, depth_plane's range and perspective.inv_w are not set.
 template <int kSampleCount = 1>
 struct LaneSetup : FragmentSetup {
-  int x0, y0, x1, y1;  ///< the pixels of the tile in its bounding box, x0 and y0 rounded down to a block's
+  int x0, y0, x1, y1;  ///< bounding box in the tile, [x0, x1) x [y0, y1); x0 and y0 rounded down to a block's
   std::int32_t at_tile[3], step_x[3], step_y[3];  ///< per edge
   std::int32_t at_sample[kSampleCount][3];
   Affine<double> code[kSampleCount];
-  float nearest;                  ///< a depth code: all its fragments in the tile are farther
-  bool plain_depth, plain_color;  ///< LaneTriangles
+  float nearest;                  ///< depth code; all fragments in the tile are farther
+  bool plain_depth, plain_color;  ///< as LaneTriangles
   GradientSetup gradients;        ///< of a textured surface
 };
 
+/// Affine of each lane, in memory.
 template <class R>
 struct AffineLanes {
   static constexpr int kLanes = Lanes<R>::width;
@@ -35,6 +38,7 @@ struct AffineLanes {
   Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
   Affine<Wide<R>> of_all() const { return {Lanes<R>::load(at_0), Lanes<R>::load(x), Lanes<R>::load(y)}; }
 };
+/// GradientSetup of each lane, in memory.
 template <class R>
 struct GradientLanes {
   static constexpr int kLanes = Lanes<R>::width;
@@ -54,7 +58,7 @@ struct GradientLanes {
     return {all(0), all(1), all(2), all(3), all(4), all(5)};
   }
 };
-/// As many triangles as there are lanes.
+/// Setup of as many triangles as there are lanes, in memory.
 template <class R, int kSampleCount = 1>
 struct LaneTriangles {
   static constexpr int kLanes = Lanes<R>::width;
@@ -65,15 +69,15 @@ struct LaneTriangles {
   GradientLanes<R> gradients;
   alignas(64) float color[3][4][kLanes];  ///< corner 0's, and the others' differences from it
   float nearest[kLanes];
-  alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
-  unsigned fitting;                                  ///< a bit a lane
-  /// A bit a lane. plain_depth: in the tile, no depth code needs the clamp, and all are nearer than the clear depth.
+  alignas(64) std::int32_t constant_colors[kLanes];  ///< 1: the corners have one colour; else 0
+  unsigned fitting;                                  ///< a bit per lane: no edge longer than kLongestEdge
+  /// A bit per lane. plain_depth: in the tile, no depth code needs the clamp, and all are nearer than the clear depth.
   /// plain_color: in the tile, 1/w is not near 0 and weights are below 1024; all corners have the same alpha.
   unsigned plain_depth, plain_color;
   unsigned in_blocks;  ///< as PerspectiveSetup
-  int width, height;   ///< the largest box
+  int width, height;   ///< greatest of the lanes' boxes [pixels]; <= 0: all are empty
 
-  /// In the tile whose lower left pixel that is.
+  /// Setup of one lane's triangle. (tile_x, tile_y): the lower left pixel of the tile.
   [[gnu::always_inline]] LaneSetup<kSampleCount> of(int lane, bool front, int tile_x, int tile_y) const {
     LaneSetup<kSampleCount> s;
     s.front = front;
@@ -106,7 +110,7 @@ struct LaneTriangles {
   }
 };
 
-/// Per corner, each lane's vertex.
+/// Vertices of the lanes' triangles: [corner][lane].
 template <class R>
 using CornersOfLanes = const PaintVertex* [3][Lanes<R>::width];
 
@@ -134,13 +138,14 @@ template <class R>
   return out;
 }
 
-/// AttributeSetup, of all lanes.
+/// AttributeSetup of each lane.
 template <class R>
 struct AttributeLanes {
   Color<R> value0, delta1, delta2;
   Mask<R> constant;
 };
-/// attribute_setup() of the four floats that `member` points to in a corner. `flat`: the provoking vertex's, everywhere.
+/// attribute_setup() of four floats per corner. member(vertex): their address; `flat`: the provoking vertex' (corner
+/// 1's) at all corners.
 template <class R>
 [[gnu::always_inline]] inline AttributeLanes<R> attribute_lanes(const CornersOfLanes<R>& corner, bool flat,
                                                                 auto member) {
@@ -155,7 +160,7 @@ template <class R>
   return out;
 }
 
-/// Colours into `out`; returns which lanes' corners all have the same alpha.
+/// Sets the colours of `out`; returns the lanes whose corners have the same alpha.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat,
                                                     LaneTriangles<R, kSampleCount>& out) {
@@ -169,7 +174,7 @@ template <class R, int kSampleCount>
   return (color.delta1.a == R(0)) & (color.delta2.a == R(0));
 }
 
-/// Planes of depth at each sample, and of the colours' weights, which are the centre's.
+/// Sets the planes of `out`: depth at each sample, without polygon offset; weights at the pixel's centre.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline void set_up_planes(const CornerPlanes<Wide<R>>& planes, const Vec4<R> (&p_win)[3],
                                                  const Painting& painting, LaneTriangles<R, kSampleCount>& out) {
@@ -191,7 +196,7 @@ template <class R, int kSampleCount>
   }
 }
 
-/// Gradients of the texture coordinates, where the draw's surface has a texture.
+/// Sets the gradients of `out`, where the draw's surface has a texture.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline void set_up_gradients(const CornersOfLanes<R>& corner,
                                                     const CornerPlanes<Wide<R>>& planes, const Vec4<R> (&p_win)[3],
@@ -209,7 +214,8 @@ template <class R, int kSampleCount>
   out.gradients.keep(gradient_setup<Wide<R>>(planes, of_s, of_t, inv_w));
 }
 
-/// In the tile whose lower left pixel is `tile`. `facing`: 1 of a front face, -1 of a back one.
+/// Sets up the lanes' triangles for the tile whose lower left pixel is `tile`. `facing`: 1 of a front face, -1 of a
+/// back face.
 template <class R, int kSampleCount>
 void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const Painting& painting,
                   const PaintDraw& draw, glm::ivec2 tile, LaneTriangles<R, kSampleCount>& out) {
@@ -249,8 +255,8 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   store(x_first, out.bounds[0]), store(y_first, out.bounds[1]);
   store(x_end, out.bounds[2]), store(y_end, out.bounds[3]);
 
-  // The planes at the box's corners. What rounding does there and at the fragments is far below 2^-48 of the terms'
-  // sum; a code's own rounding is below one code.
+  // Bounds of planes over the box, from its corners. Rounding errors there and at the fragments are far below 2^-48 of
+  // the sum of the terms' magnitudes; rounding to a code adds less than one code.
   const W low_x = to_wide(x_first), high_x = to_wide(x_end), low_y = to_wide(y_first), high_y = to_wide(y_end);
   const auto size = [](const W& value) { return greater_of(value, -value); };
   const auto terms = [&](const Affine<W>& f) { return size(f.at_0) + (size(f.x) + size(f.y)) * W(kTile); };

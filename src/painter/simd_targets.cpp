@@ -13,7 +13,7 @@ extern constinit const SimdTarget kSimd_sse4, kSimd_avx2, kSimd_avx512;  // simd
 
 namespace {
 
-// __builtin_cpu_supports() of clang 14 does not know it.
+// F16C by cpuid: clang 14's __builtin_cpu_supports() does not know it.
 bool has_f16c() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
@@ -21,7 +21,7 @@ bool has_f16c() {
 
 }  // namespace
 
-// Targets are those of which the processor has every instruction that their code is compiled for (plumbline_simd() in
+// A target is there if the processor has every instruction set that its code is compiled for (plumbline_simd() in
 // CMakeLists.txt): a virtual machine may hide some.
 std::span<const SimdTarget> simd_targets() {
   static const std::array<SimdTarget, 4> kTargets = {

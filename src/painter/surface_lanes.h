@@ -1,5 +1,5 @@
-// Stages 7 to 9 of a pixel of each of as many triangles as there are lanes, coloured by their draw's surface: what
-// surface_attributes() (fragments.h) and shade() make of one triangle's pixels.
+// Stages 7 to 9, and the codes of stage 11, of one pixel of each lane's triangle, coloured by the draw's surface.
+// surface_attributes() (fragments.h) and shade() do the same for pixels of one triangle.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace plumbline::pipeline {
 
-/// mean() per lane. A lane whose corners are equal gets weights 0, because its own may be NaN.
+/// mean() per lane. A lane whose corners are equal gets weights 0, because the computed weights may be NaN.
 template <class R>
 [[gnu::always_inline]] inline Color<R> mean_of_lanes(const AttributeLanes<R>& s, const Weights<R>& k) {
   const Weights<R> known{select(s.constant, R(0), k.k1), select(s.constant, R(0), k.k2)};
   return mixed<R>(s, known);
 }
-/// Setup of the colours that set_up_colors() found.
+/// Colours that set_up_colors() stored, as lanes.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline AttributeLanes<R> colors_of(const LaneTriangles<R, kSampleCount>& lanes) {
   AttributeLanes<R> out;
@@ -28,11 +28,11 @@ template <class R, int kSampleCount>
   return out;
 }
 
-/// A draw's surface on the lanes' triangles.
+/// Shades pixels of the lanes' triangles by a draw's surface, which must outlive it.
 template <class R>
 class SurfaceLanes {
  public:
-  /// `front`: all triangles' face.
+  /// `front`: facing of all triangles; without meaning where light has not two sides.
   SurfaceLanes(const Painting& painting, const PaintDraw& draw, const CornersOfLanes<R>& corner,
                const LaneTriangles<R, 1>& lanes, bool front)
       : surface_(*draw.surface),
@@ -49,7 +49,8 @@ class SurfaceLanes {
     }
   }
 
-  /// Codes of the pixels `at`, counted from the tile's first, of rgba8. In lanes that are not `wanted`, any.
+  /// Packed codes of rgba8 of each lane's pixel. `at`: offset from the tile's first pixel. Lanes not `wanted`: any
+  /// value.
   Int<R> codes(const Offset<R>& at, Mask<R> wanted) const {
     const Wide<R> q = value_at<R>(sum_, at);
     const Weights<R> all = weights<R>(to_float(value_at<R>(q1_, at)), to_float(value_at<R>(q2_, at)), to_float(q));

@@ -12,7 +12,7 @@
 
 namespace plumbline::pipeline {
 
-/// Addresses of the first of some pixels' values: depth and colour in the frame's formats, as floats.
+/// Addresses of consecutive pixels' values in a Tile: depth and colour in the frame's formats, as floats.
 struct Stored {
   float* depth;
   float* color[4];
@@ -29,7 +29,7 @@ struct Stored {
     }
   }
 };
-/// Stored values of rgba8 tiles, red in the lowest byte.
+/// Addresses of consecutive pixels' values in a PackedTile; colours are rgba8, red in the lowest byte.
 struct StoredCodes {
   float* depth;
   std::uint32_t* color;
@@ -58,12 +58,12 @@ struct StoredCodes {
   }
 };
 
-/// Place of a block's first pixel; (x, y): any pixel of the block, in the tile.
+/// Index, in a tile's arrays, of the first pixel of the block of (x, y), counted from the tile.
 inline int block_offset(int x, int y) {
   static_assert(kBlock == 4 && kTile == 64);
   return (y >> 2 << 8) + (x >> 2 << 4);
 }
-/// Place of the pixel (x, y) of the tile.
+/// Index, in a tile's arrays, of pixel (x, y), counted from the tile.
 inline int pixel_offset(int x, int y) { return block_offset(x, y) + y % kBlock * kBlock + x % kBlock; }
 
 /// A square of the frame, stored block by block; colour and depth in the frame's formats, as floats.
@@ -71,26 +71,26 @@ struct Tile {
   int x0, y0;  ///< its lower left pixel
   alignas(64) float depth[kTile * kTile];
   alignas(64) float color[4][kTile * kTile];
-  alignas(64) std::uint8_t stencil[kTile * kTile];  ///< left alone where the frame has none
+  alignas(64) std::uint8_t stencil[kTile * kTile];  ///< not used where the frame has none
 
   Stored at(int place) {
     return {depth + place, {color[0] + place, color[1] + place, color[2] + place, color[3] + place}, stencil + place};
   }
 };
-/// Tile of rgba8 frames: half the memory, written out as it is.
+/// Tile of rgba8 frames: half the memory, colours as the frame stores them.
 struct PackedTile {
-  int x0, y0;
+  int x0, y0;  ///< its lower left pixel
   alignas(64) float depth[kTile * kTile];
   alignas(64) char apart[2112];  ///< so that a pixel's depth and colour are not 16 KiB apart: stores would stall loads
   alignas(64) std::uint32_t color[kTile * kTile];
   alignas(64) std::uint8_t stencil[kTile * kTile];
-  alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< of each block: none of its depths is greater
-  float farthest_of_all;
+  alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< per block: an upper bound of its depths
+  float farthest_of_all;                                     ///< an upper bound of all depths
 
   StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }
 };
 
-/// Copies the tile's part of the frame out of its blocks.
+/// Copies the tile into its part of the frame.
 void write_out(Tile& tile, Frame& frame);
 void write_out(PackedTile& tile, Frame& frame);
 

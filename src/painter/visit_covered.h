@@ -1,4 +1,4 @@
-// Blocks of the tile that a triangle covers, and a run of triangles lanes by lanes.
+// Iteration: over the blocks of a tile that a triangle covers, and over a run's triangles, a group of lanes at a time.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace plumbline::pipeline {
 
 template <class R>
-inline constexpr int kParts = kBlockPixels / Lanes<R>::width;  ///< of a block
+inline constexpr int kParts = kBlockPixels / Lanes<R>::width;  ///< vectors of a block's pixels
 
 alignas(64) inline constexpr std::int32_t kColumnInBlock[] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) inline constexpr std::int32_t kRowInBlock[] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 alignas(64) inline constexpr std::int32_t kBlockNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-// Rows of blocks that are counted one after the other, in groups of 2^i columns: [i][block].
+// Row of a block in a group of 2^i columns, whose blocks are numbered row by row: [i][block] = block >> i.
 alignas(64) inline constexpr std::int32_t kBlockRows[][16] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15},
                                                               {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7},
                                                               {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3},
@@ -33,29 +33,30 @@ struct BlockGroup {
   }
   int columns() const { return 1 << bits; }
   int rows() const { return kLanes >> bits; }
-  /// Place of a lane's block, in pixels from the group's first.
+  /// First pixel of a lane's block, counted from the group's first pixel.
   int x(int lane) const { return kBlock * (lane & (columns() - 1)); }
   int y(int lane) const { return kBlock * (lane >> bits); }
   Int<R> x() const { return shifted_left<2>(Lanes<R>::load(kBlockNumbers) & Int<R>(columns() - 1)); }
   Int<R> y() const { return shifted_left<2>(Lanes<R>::load(kBlockRows[bits])); }
 
-  int bits = std::min(kMostBits, 2);
+  int bits = std::min(kMostBits, 2);  ///< log2 of columns()
 };
 
-/// Calls block(x, y, lane, covered, whole) for each block with pixels inside all three edges, group by group. (x, y):
-/// the block's first pixel, counted from the tile. `covered`: masks of the block's parts, for each sample. `whole`:
-/// std::true_type where all pixels are covered (only with one sample), else std::false_type. Before a row of blocks,
-/// calls wanted(y), which returns a bit for each of the row's 16 blocks to test. Before the blocks of a group, calls
-/// ahead(x, y, group, whether any block is whole) with the first pixel of the group.
+/// Calls block(x, y, lane, covered, whole) for each block with pixels inside all three edges, group by group, in each
+/// group whole blocks first. (x, y): the block's first pixel, counted from the tile. `lane`: its lane in the group.
+/// `covered`: masks of the block's parts, for each sample. `whole`: std::true_type where all pixels are covered (only
+/// with one sample), else std::false_type. Before a row of blocks, calls wanted(y), which returns a bit for each of the
+/// row's 16 blocks to test. Before the blocks of a group, calls ahead(x, y, group, whether any block is whole) with the
+/// first pixel of the group.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline void visit_covered(const LaneSetup<kSampleCount>& s, auto wanted, auto ahead,
                                                  auto block) {
   using I = Int<R>;
   constexpr int kLanes = Lanes<R>::width;
   const BlockGroup<R> group(s.x1 - s.x0);
-  I in_block[kSampleCount][3][kParts<R>];  // what E adds to that of the block's first pixel
-  I of_blocks[3];                          // of a group's blocks, from the tile's first pixel
-  I least[3], greatest[3];                 // that E adds in a block
+  I in_block[kSampleCount][3][kParts<R>];  // E at a pixel less E at its block's first pixel
+  I of_blocks[3];                          // E at the first pixels of a group's blocks, the group at the tile's corner
+  I least[3], greatest[3];                 // least and greatest change of E within a block
   for (int k = 0; k < 3; ++k) {
     for (int part = 0; part < kParts<R>; ++part) {
       const I within = Lanes<R>::load(kColumnInBlock + part * kLanes) * I(s.step_x[k]) +
@@ -117,7 +118,8 @@ template <class R, int kSampleCount>
   }
 }
 
-/// The primitives of a run, as many at a time as there are lanes: `while (next())`, those of `corner`.
+/// Iterator over a run's primitives, as many at a time as there are lanes: while (next()), `corner` and `count` are
+/// those of the next group. `from_last`: in reverse order.
 template <class R, int kSampleCount>
 class LanesOfRun {
  public:
@@ -134,7 +136,7 @@ class LanesOfRun {
     }
     return true;
   }
-  /// Makes `lanes` of them, if all are triangles; else none fits.
+  /// Sets up `lanes` from the group, if all are triangles; else no lane fits.
   [[gnu::always_inline]] void set_up() {
     alignas(64) float facing[kLanes];
     bool triangles_alone = true;
@@ -147,7 +149,7 @@ class LanesOfRun {
     if (triangles_alone)
       set_up_lanes<R, kSampleCount>(corner, facing, painting_, painting_.draws[run_.draw], tile_, lanes);
   }
-  const PaintTriangle& triangle(int lane) const {
+  const PaintTriangle& triangle(int lane) const {  ///< lane < count
     const std::size_t n = begin_ + static_cast<std::size_t>(lane);
     return run_.triangles[run_.numbers[from_last_ ? run_.numbers.size() - 1 - n : n]];
   }
@@ -160,7 +162,7 @@ class LanesOfRun {
 
  private:
   static constexpr std::size_t kLanes = Lanes<R>::width;
-  // Lanes that are too many do as the last.
+  // Surplus lanes repeat the last triangle.
   const PaintTriangle& in_lane(std::size_t lane) const { return triangle(std::min(static_cast<int>(lane), count - 1)); }
 
   const Painting& painting_;
