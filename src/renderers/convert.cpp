@@ -4,7 +4,7 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// The columns' values at `i`, of those that are there.
+// Attributes from a colour and value_at(column), which is null where the column is missing: then 0.
 template <class Value>
 Attributes gathered(const Vec4<double>& color, const Varyings<double>& columns, Value value_at) {
   Attributes out{};

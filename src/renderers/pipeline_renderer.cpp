@@ -14,7 +14,7 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// A frame of colours alone.
+// Finished frame of `color`, of its size; depth and stencil are the clear values.
 Frame frame_of_colors(const FrameFormat& format, const Plane<glm::vec4>& color) {
   FrameFormat of_pass = format;
   of_pass.width = color.width();

@@ -1,4 +1,4 @@
-// Our pipeline behind the interface that all renderers share.
+// Our pipeline behind the Renderer interface (capture/renderer.h).
 #pragma once
 
 #include <memory>
@@ -8,12 +8,13 @@
 
 namespace plumbline::pipeline {
 
-/// Name "ours". Shows and runs every stage; resolve shows in antialiased scenes alone. Pictures are the painter's
-/// (painter.h), captures with records the definition's (render.h): the same bits.
+/// Renderer "ours". Shows and runs every stage; resolve shows in antialiased scenes alone. Pictures (no records asked
+/// for, WantedPlanes::picture) are the painter's (painter.h), all other captures the definition's (render.h): the same
+/// bits. capture() throws OverBudget, and std::invalid_argument where no painter has the name that was asked for.
 std::unique_ptr<Renderer> make_pipeline();
-/// Name "definition": pictures are the definition's, too.
+/// Renderer "definition": pictures are the definition's, too.
 std::unique_ptr<Renderer> make_definition();
-/// Name "ours", of other stage functions; pictures are the definition's.
+/// Renderer "ours" of other stage functions: pictures and captures are render()'s with `stages`.
 std::unique_ptr<Renderer> make_pipeline(const Stages& stages);
 
 }  // namespace plumbline::pipeline

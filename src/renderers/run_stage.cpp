@@ -14,7 +14,8 @@ namespace plumbline::pipeline {
 
 namespace {
 
-/// Runs one stage; each function is one or two of render.cpp's numbered blocks. Records go through the same Recorder.
+/// Runs one stage, as render.cpp's block of its number does: run_geometry() stages 0 to 4, run_coverage() 5,
+/// run_fragments() 6 to 11. Records go through the same Recorder.
 class OneStage {
  public:
   OneStage(const Scene& scene, Stage stage, const Stages& stages, const Capture& in)
@@ -40,7 +41,7 @@ class OneStage {
       run_fragments();
     }
     out.records = std::move(made_.records);
-    Planes &to = out.planes, &from = made_.planes;  // a recorder fills those of all stages
+    Planes &to = out.planes, &from = made_.planes;  // the recorder fills planes of other stages, too
     if (stage_ == Stage::coverage) to.count = std::move(from.count), to.id_sum = std::move(from.id_sum);
     if (stage_ == Stage::visibility) to.id = std::move(from.id), to.stencil = std::move(from.stencil);
     if (stage_ == Stage::merge) to.depth = std::move(from.depth), to.color = std::move(from.color);
@@ -180,7 +181,7 @@ class OneStage {
     return out;
   }
 
-  // Merge takes the recorded answers, or the winners; visibility, and a capture without either, tests.
+  // Whether fragment `i` is drawn. Visibility tests it. Merge takes records.drawn, else planes.id, else tests it.
   bool is_drawn(std::size_t i, const Draw& draw, const WindowTriangle& triangle, const Fragment& f,
                 const FramePixel& at) const {
     const auto passes = [&](const Draw& by) {
@@ -191,11 +192,12 @@ class OneStage {
     if (stage_ == Stage::visibility) return passes(draw);
     if (!records_.drawn.empty()) return records_.drawn[i].drawn;
     if (in_.planes.id.empty()) return passes(draw);
-    // The winner itself passes; a cut primitive may have two triangles at a pixel.
+    // The winner's first fragment at the pixel passes the depth test, whatever is stored; a later one, of another
+    // triangle of a cut primitive, is tested.
     const auto primitive = static_cast<std::int32_t>(triangle.primitive);
     if (in_.planes.id(f.pixel.x, f.pixel.y) != primitive) return false;
     Draw known = draw;
-    known.stencil.reset();  // what was held is not known
+    known.stencil.reset();  // the stored stencil value is not known
     if (made_.planes.id(f.pixel.x, f.pixel.y) == kBackground) known.depth_func = DepthFunc::always;
     return passes(known);
   }

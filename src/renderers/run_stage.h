@@ -1,5 +1,5 @@
-// One stage of the pipeline alone, on the records of a capture; and what these records, in double, are in the pipeline's
-// own float (the other way round: pipeline/recorder.h).
+// One stage of the pipeline alone, on the records of a capture; and conversions of records from double to the
+// pipeline's float (from float to double: pipeline/recorder.h).
 #pragma once
 
 #include "capture/capture.h"
@@ -9,17 +9,22 @@
 
 namespace plumbline::pipeline {
 
-/// Adds the stage's records and planes to `out`, made of what `in` holds of the stages before (Renderer::run_stage).
-/// Throws std::invalid_argument naming the records that do not fit. Not of resolve.
+/// Runs the stage (any but resolve) on what `in` holds of the stages before it (Renderer::run_stage). Replaces the
+/// records of `out` by the stage's, and sets the stage's planes. Where `in` has no lights, the scene's are used. Throws
+/// std::invalid_argument, naming the records of `in` that do not fit.
 void run_stage(const Scene& scene, Stage stage, const Stages& stages, const Capture& in, Capture& out);
 
+/// Records rounded to float.
 Matrices<float> narrow(const Matrices<double>& from);
 Vertex<float> narrow(const Vertex<double>& from);
 
-/// Colour, depth and stencil of the frame into `to`; in [0,1], where their format is one of codes.
+/// Copies colour, depth and stencil of the frame into `to`. Codes of colour and depth become code / largest code,
+/// [0,1]; floats and stencil values stay.
 void copy_planes(const Frame& frame, const FrameFormat& format, Planes& to);
 
-/// Number `i` of records.vertices with the attributes beside it; of records.polygons.polygons; of records.triangles.
+/// Attributes of vertex `i` (records.lit and the varyings); polygon `i` of records.polygons; triangle `i` of
+/// records.triangles. Rounded to float; a varying that the records lack is 0. Only triangle_at() checks `i`
+/// (std::out_of_range).
 Attributes attributes_at(const Records<double>& records, std::size_t i);
 Polygon polygon_at(const Records<double>& records, std::size_t i);
 ShadedTriangle triangle_at(const Records<double>& records, std::size_t i);
