@@ -22,8 +22,7 @@ transforms::FieldOfView field_of_view(const Scene& scene, const Perspective& p) 
   return {p.fov_y_degrees * kRadians, static_cast<double>(scene.frame.width) / scene.frame.height};
 }
 
-// Where pixel centres are whole numbers, the window is half a pixel off GL's: x_gl = x + 1/2, which is 1/width in NDC,
-// and w/width in clip space.
+// Window of whole pixel centres to GL's: x_gl = x + 1/2, which is 1/width in NDC, and w/width in clip space.
 glm::dmat4 from_whole_centres(const FrameFormat& frame) {
   return transforms::translation({1.0 / frame.width, 1.0 / frame.height, 0});
 }
@@ -32,7 +31,8 @@ double d_of(const Scene& scene) {
   return transforms::gzrender::d_of_fov(projection_of<ViewPlane>(scene).fov_degrees * kRadians);
 }
 
-// Camera space looks along +z from (0, 0, -d): z_eye = -(Z + d). That mirrors, as a left-handed world must be.
+// gzrender's camera space to eye space. It looks along +z from (0, 0, -d): z_eye = -(Z + d). This mirrors the
+// left-handed space to a right-handed one.
 glm::dmat4 eye_of_gzrender(double d) { return transforms::scaling({1, 1, -1}) * transforms::translation({0, 0, d}); }
 glm::dmat4 inverse_eye_of_gzrender(double d) {
   return transforms::inverse_translation({0, 0, d}) * transforms::inverse_scaling({1, 1, -1});
@@ -44,7 +44,7 @@ glm::dmat4 inverse_eye_of_gzrender(double d) {
 glm::dmat4 gzrender_projection(const Scene& scene) {
   const double d = d_of(scene);
   const glm::dmat4 z_and_rows =
-      transforms::translation({0, 0, -1}) * transforms::scaling({1, -1, 2});  // by w: x, y, z are still to be divided
+      transforms::translation({0, 0, -1}) * transforms::scaling({1, -1, 2});  // in clip space, -1 is -w
   return from_whole_centres(scene.frame) * z_and_rows * transforms::gzrender::x_pi(d) * inverse_eye_of_gzrender(d);
 }
 
@@ -106,7 +106,7 @@ glm::dmat4 unshifted_projection(const Scene& scene) {
 
 }  // namespace
 
-// The picture is moved in clip space, so that the view volume is the frame's still.
+// The shift is applied in clip space, so that the view volume stays the frame's.
 glm::dmat4 projection_matrix(const Scene& scene) {
   const glm::dvec2 shift = scene.frame.pass.shift, pixel(2.0 / scene.frame.width, 2.0 / scene.frame.height);
   if (shift == glm::dvec2(0)) return unshifted_projection(scene);
