@@ -9,17 +9,18 @@
 namespace plumbline::image_order {
 
 struct Crossing {
-  double along;  ///< the view; negative behind the eye
-  bool front;    ///< the triangle is counter-clockwise, seen from there
+  double along;  ///< distance along the view; negative behind the eye
+  bool front;    ///< the triangle is counter-clockwise in (Seen::x, Seen::y)
 };
 
-/// Nothing where the ray passes by, or runs in the triangle's own plane.
+/// Crossing of the ray and the triangle (world space); nothing where the ray passes by, or lies in the triangle's
+/// plane.
 ///
 /// The weights of Moeller and Trumbore (1997), each by the two corners of an edge alone, as Woop, Benthin and Wald
-/// ("Watertight ray/triangle intersection", 2013) have it: a corner's place beside the ray is rounded once, the same
-/// for all triangles that it is a corner of, and the sign of a weight is exact from there on. A ray through an edge or
-/// a corner is moved a hair to the right, and by a hair of that up (stages.h, TieRule::small_sides_in): it crosses one
-/// of the triangles that meet there, whatever was rounded.
+/// ("Watertight ray/triangle intersection", 2013) have it: a corner's position relative to the ray is rounded once,
+/// alike for all triangles that share the corner, and the sign of a weight is exact from there on. A ray through an
+/// edge or a corner counts as moved by e in x and e^2 in y, e infinitely small (stages.h, TieRule::small_sides_in): it
+/// crosses one of the triangles that meet there, whatever was rounded.
 std::optional<Crossing> crossing(const Ray& ray, const std::array<glm::dvec3, 3>& triangle);
 
 }  // namespace plumbline::image_order

@@ -19,7 +19,7 @@ Hierarchy::Hierarchy(const std::vector<std::array<glm::dvec3, 3>>& triangles) : 
   split(0, triangles);
 }
 
-// By the middle of the triangles along the box's longest side.
+// Splits a node with more than kLeaf triangles at the median of their centroids along the box's longest side.
 void Hierarchy::split(std::uint32_t index, const std::vector<std::array<glm::dvec3, 3>>& triangles) {
   const std::uint32_t first = nodes_[index].first, count = nodes_[index].count;
   glm::dvec3 low = triangles[order_[first]][0], high = low;
@@ -41,7 +41,7 @@ void Hierarchy::split(std::uint32_t index, const std::vector<std::array<glm::dve
   const auto from = order_.begin() + first;
   std::nth_element(from, from + count / 2, from + count, [&](std::uint32_t a, std::uint32_t b) {
     const double a_middle = middle_of(a), b_middle = middle_of(b);
-    return a_middle != b_middle ? a_middle < b_middle : a < b;  // the same on every machine
+    return a_middle != b_middle ? a_middle < b_middle : a < b;  // one order on every machine
   });
   const auto child = static_cast<std::uint32_t>(nodes_.size());
   nodes_[index].first = child;

@@ -1,4 +1,4 @@
-// Boxes in boxes around triangles, so that a ray need not be tried with each.
+// Bounding volume hierarchy of boxes, so that a ray is not tried with every triangle.
 #pragma once
 
 #include <array>
@@ -10,22 +10,22 @@
 
 namespace plumbline::image_order {
 
+/// Binary tree of axis-aligned boxes over triangles in world space. Keeps their indices, not the triangles.
 class Hierarchy {
  public:
-  /// World space.
   explicit Hierarchy(const std::vector<std::array<glm::dvec3, 3>>& triangles);
 
-  /// Calls visit(index) for every triangle that the ray may cross, and some more. Left out are boxes all of whose
-  /// points are nearer along the view than `nearest`, and those for whose nearest point too_far(along) is true, asked
-  /// anew for each.
+  /// Calls visit(index) for every triangle that the ray may cross, and some more, nearer boxes mostly first. Left out
+  /// are boxes whose farthest point is nearer along the view than `nearest`, and boxes for whose nearest point
+  /// too_far(along) is true when their turn comes; what is too far must stay so for every greater `along`.
   template <class TooFar, class Visit>
   void walk(const Ray& ray, double nearest, TooFar too_far, Visit visit) const;
 
  private:
   struct Node {
     glm::dvec3 low, high;
-    std::uint32_t first;  ///< of order_, or, where there are no triangles, the first of two nodes in a row
-    std::uint32_t count;
+    std::uint32_t first;  ///< leaf: index of order_; inner node: index of the first of two consecutive children
+    std::uint32_t count;  ///< triangles of a leaf; 0: inner node
   };
   void split(std::uint32_t node, const std::vector<std::array<glm::dvec3, 3>>& triangles);
 
@@ -33,7 +33,7 @@ class Hierarchy {
   std::vector<Node> nodes_;
 };
 
-/// The least and the greatest n . (p - origin) over the points of a box.
+/// Least and greatest n . p over the points p of the box [low, high]; for a ray, the box less the ray's origin.
 struct Range {
   double low, high;
 };
@@ -49,7 +49,7 @@ void Hierarchy::walk(const Ray& ray, double nearest, TooFar too_far, Visit visit
     double near;
     std::uint32_t node;
   };
-  std::array<Entry, 64> waiting;  // one at each level and its sibling: split by the middle, there are at most 31 levels
+  std::array<Entry, 64> waiting;  // one sibling per level, and one more; halving makes at most 31 levels
   std::size_t count = 0;
   const auto consider = [&](std::uint32_t node) {
     const glm::dvec3 low = nodes_[node].low - ray.origin, high = nodes_[node].high - ray.origin;

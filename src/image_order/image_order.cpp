@@ -18,10 +18,10 @@ glm::dmat4 placed(const glm::dmat4& m, const Translate& t) { return glm::transla
 glm::dmat4 placed(const glm::dmat4& m, const Rotate& r) { return glm::rotate(m, glm::radians(r.degrees), r.axis); }
 glm::dmat4 placed(const glm::dmat4& m, const Scale& s) { return glm::scale(m, s.by); }
 
-/// A scene's triangles in world space, by primitive.
+/// Triangles of a scene in world space, indexed by primitive.
 struct World {
   std::vector<std::array<glm::dvec3, 3>> triangles;
-  std::vector<std::uint32_t> draw;  ///< beside triangles
+  std::vector<std::uint32_t> draw;  ///< number of each triangle's draw
 };
 
 World world_of(const Scene& scene) {
@@ -64,7 +64,7 @@ bool passes(DepthFunc func, double incoming, double stored) {
   return false;
 }
 
-/// What a pixel shows.
+/// Winner and depth of a pixel.
 struct Answer {
   std::int32_t id;
   double depth;
@@ -108,7 +108,8 @@ class Caster {
   void find_hits(const Ray& ray, int x, int y) {
     hits_.clear();
     double nearest = 2;  // window z
-    // By the depth as it is compared, which never falls where the distance grows.
+    // By the depth that is compared. Assumes that depth never falls as the distance grows: false in games101 and
+    // tinyrenderer.
     const auto too_far = [&](double along) {
       return along > view_.far() || (nearest_alone_ && depth_of({}, std::max(along, view_.near())) > nearest);
     };
@@ -128,7 +129,7 @@ class Caster {
   World world_;
   Hierarchy hierarchy_;
   View view_;
-  bool nearest_alone_;  ///< what is farther than another hit is never seen, nor changes what is
+  bool nearest_alone_;  ///< a hit of greater depth than another neither wins nor changes the winner
   std::vector<Hit> hits_;
 };
 

@@ -8,12 +8,11 @@
 
 namespace plumbline::image_order {
 
-/// A renderer named "image_order". One ray per pixel, in double; the depth tests of the triangles that it crosses, in
-/// draw order, choose the winner (for less and less_equal, the nearest). Hands out planes.id, planes.depth and, as
-/// cleared, planes.stencil. Uses no view or projection matrix, clipping, snapping or z-buffer: a crossing counts where
-/// its distance along the view is in [near, far]. Depths are rounded to the frame's format before they are compared.
-/// capture() throws OverBudget, and Unsupported for lines, points, alpha tests, stencil tests, polygon offset and
-/// antialiased frames.
+/// Renderer "image_order". One ray per pixel, in double; the depth tests of the triangles that it crosses, in draw
+/// order, choose the winner. Hands out planes.id, planes.depth and, as cleared, planes.stencil. Uses no view or
+/// projection matrix, clipping, snapping or z-buffer: a crossing counts where its distance along the view is in [near,
+/// far], under depth clamp, too. Depths are rounded to the frame's format before they are compared. capture() throws
+/// OverBudget, and Unsupported for lines, points, alpha tests, stencil tests, polygon offset and antialiased frames.
 std::unique_ptr<Renderer> make_image_order();
 
 }  // namespace plumbline::image_order

@@ -28,7 +28,7 @@ View::View(const Scene& scene)
   }
 }
 
-// `sign`: near and far times it are distances.
+// Projections of gl and games101. `sign`: 1 where near and far are distances, -1 where they are coordinates.
 void View::set_opengl(const Scene& scene, double sign) {
   const auto set = [&](const auto& p, double distance) {
     left_ = p.left / distance;
@@ -49,8 +49,8 @@ void View::set_opengl(const Scene& scene, double sign) {
   }
 }
 
-// The view plane is d before the eye, which is d behind the camera's place, and is two units wide and high. In the
-// left-handed world x grows to what would else be the left; rows grow downwards.
+// The view plane goes through the camera's `eye` and is two units wide and high; rays start d behind it. The world is
+// left-handed: right is the negative of the constructor's cross product. Rows grow downwards.
 void View::set_gzrender(const ViewPlane& plane) {
   const double half = std::tan(glm::radians(plane.fov_degrees) / 2);
   near_ = 1 / half;
@@ -61,10 +61,10 @@ void View::set_gzrender(const ViewPlane& plane) {
   set_whole_centres(half);
 }
 
-// x and y in [-1, 1] are seen on the plane c before the eye, where w is 1.
+// The window is [-1, 1] in x and y on the plane at distance c from the eye, where w is 1.
 void View::set_tinyrenderer(const Camera& camera, const Pinhole& pinhole) {
   eye_ = camera.center - pinhole.c * forward_;
-  // What runs through the eye is seen edge on, but rounded to be a few of 2^-53 of c before it or behind.
+  // Planes through the eye are seen edge on. Rounding puts their crossings at distances of a few 2^-53 c: below `near`.
   near_ = 1e-12 * pinhole.c;
   far_ = std::numeric_limits<double>::infinity();
   depth_ = Depth::of_pinhole;
@@ -72,8 +72,8 @@ void View::set_tinyrenderer(const Camera& camera, const Pinhole& pinhole) {
   set_whole_centres(1 / pinhole.c);
 }
 
-// A square window, on the plane one unit before the eye. Its left and lower border run through pixel centres, which is
-// half a pixel to the left of and below where they would be.
+// Window [-half, half] in x and y, on the plane one unit before the eye, whose borders at column 0 and row 0 run
+// through pixel centres: the frame's window is moved by half a pixel.
 void View::set_whole_centres(double half) {
   width_ = height_ = 2 * half;
   left_ = -half - half / frame_.x;
@@ -83,7 +83,7 @@ void View::set_whole_centres(double half) {
 Ray View::ray(int x, int y) const {
   const double s = left_ + (x + place_.x) * width_ / frame_.x, t = bottom_ + (y + place_.y) * height_ / frame_.y;
   if (parallel_) return {eye_ + s * right_ + t * up_, right_, up_, forward_};
-  // forward + s right + t up is on both planes.
+  // The ray's direction, forward + s right + t up, lies in both planes.
   return {eye_, right_ - s * forward_, up_ - t * forward_, forward_};
 }
 
