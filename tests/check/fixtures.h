@@ -31,7 +31,7 @@ inline double float_above(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
-/// Values that differ from every ordinary number.
+/// NaN and infinity, of both signs.
 inline const std::vector<double>& not_numbers() {
   static const std::vector<double> kValues = {kNaN, -kNaN, kInf, -kInf};
   return kValues;
@@ -45,7 +45,7 @@ inline testing::AssertionResult passes(const Measurement& m) {
                                      << ", tolerance " << m.worst.tolerance << (m.mismatch.empty() ? "" : ": ")
                                      << m.mismatch;
 }
-/// Different, and consistently so: `items` of them.
+/// Whether exactly `items` differ, and ratio (> 1) and differences (> 0) agree with that.
 inline testing::AssertionResult fails(const Measurement& m, std::uint64_t items = 1) {
   if (m.differing != items) {
     return testing::AssertionFailure() << m.differing << " of " << m.items << " differ, " << items
@@ -92,16 +92,17 @@ inline Scene two_draws(int width = 24, int height = 16) {
   return scene;
 }
 
-// What a test does to records before they are compared.
+// Change that a test makes to records before they are compared.
 using Change = std::function<void(Records<double>&)>;
 inline constexpr auto kUnchanged = [](Records<double>&) {};
 
-/// All that exact makes of a scene: records that fit each other.
+/// Exact's capture of the scene, with the records of all stages.
 inline Capture exact_capture(const Scene& scene) {
   return exact::make_exact()->capture(scene, {StageSet::all(), false, {}, {}});
 }
 
-/// A triangle in the window, facing as its corners turn.
+/// A window triangle of corners p_win (x, y [pixels], z [0, 1]) in red, green and blue, snapped to 1/256 pixel and
+/// faced by its snapped area.
 inline WindowTriangle<double> triangle_of(const std::array<glm::dvec3, 3>& p_win, const glm::dvec3& inv_w = {1, 1, 1},
                                           std::uint32_t primitive = 0) {
   WindowTriangle<double> t{};

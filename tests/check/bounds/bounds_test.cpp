@@ -57,7 +57,7 @@ glm::dvec3 weights(const WindowTriangle<double>& t, int x, int y) {
   return w;
 }
 
-// Visits pixels near the triangle's inside: those that have no barycentric below -0.01.
+// Visits up to 12 random pixels that meet the triangle, and whose centres' barycentrics are at least -0.01.
 template <class Visit>
 void for_pixels(const WindowTriangle<double>& t, Random& r, Visit visit) {
   for (int n = 0; n < 12; ++n) {
@@ -160,7 +160,8 @@ TEST(Bounds, OfAMeanHoldForFloatArithmetic) {
       << "exact.attributes is absurdly loose";
 }
 
-// Weights in float within blocks of 4 x 4 pixels, where they change by at most half of the least 1/w in a block.
+// Weights in float within blocks of 4 x 4 pixels, in triangles where the weights' numerators and their sum change by at
+// most half of the least 1/w within a block.
 TEST(Bounds, OfAMeanHoldForFloatArithmeticWithinBlocks) {
   Random r;
   Largest largest;

@@ -16,7 +16,8 @@ inline WindowTriangle<double> line_of(glm::dvec2 a, glm::dvec2 b, std::uint32_t 
   return t;
 }
 
-/// Capture of lines with the pixels of each; and `others`, pixels of primitive 9.
+/// Capture of a 16 x 12 frame: `others`, the pixels of primitive 9, and over them line i at pixels[i]. Only the lines
+/// have records.
 inline Capture drawn(const std::vector<WindowTriangle<double>>& lines, const std::vector<Pixels>& pixels,
                      const Pixels& others = {}) {
   Capture c;

@@ -11,7 +11,8 @@ namespace plumbline::check {
 using PlaneChange = std::function<void(Planes&)>;
 inline constexpr auto kUnchangedPlanes = [](Planes&) {};
 
-// A frame of 7 x 4 pixels, two of them drawn, each pixel with one answer but where a test opens it.
+// Capture of a 7 x 4 frame: primitive 3 at pixel (3, 1), primitive 5 at (2, 2), else the background. No pixel has legal
+// answers until allow().
 struct PlanePairs : testing::Test {
   PlanePairs() {
     scene.frame.width = kWidth;
@@ -41,6 +42,7 @@ struct PlanePairs : testing::Test {
     return p;
   }
   using Compare = std::function<Measurement(const Capture&, const Capture&)>;
+  // Compares two copies of the capture, each with its change.
   Measurement run(const Compare& compare, const PlaneChange& candidate,
                   const PlaneChange& reference = kUnchangedPlanes) const {
     Capture a = capture, b = capture;
@@ -68,7 +70,7 @@ struct PlanePairs : testing::Test {
   }
   std::vector<Compare> all() const { return {coverage(), winners(), depth(), shaded(), codes(), merge()}; }
 
-  // At (x, y) these answers, elsewhere the background.
+  // Makes `answers` the legal ones at (x, y), and the background the only one at every other pixel.
   void allow(int x, int y, const std::vector<std::int32_t>& answers) {
     legal.certain = legal.possible = Plane<std::uint32_t>(kWidth, kHeight);
     legal.first = {0};

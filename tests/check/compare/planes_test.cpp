@@ -184,7 +184,8 @@ TEST_F(PlanePairs, TheBackgroundsDepthAndColoursAreEqual) {
   EXPECT_TRUE(fails(run(codes(), [](Planes& p) { p.color(0, 3).g = code(2); })));
 }
 
-// Of primitive 3, at the pixel (3, 1): the reference's plane, and the candidate's mean.
+// Tolerance of channel c of primitive 3 at pixel (3, 1): that of the reference's plane plus that of the candidate's
+// mean.
 double shaded_limit(const Capture& candidate, int c) {
   const WindowTriangle<double>& t = candidate.records.triangles[0];
   return (64 * bounds_from_origin(t, 3, 1).color[c] + 10 * bounds_of_mean(t, 3, 1)[c]) * kU;

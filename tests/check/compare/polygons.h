@@ -12,8 +12,8 @@ struct ClipTriangle {
   glm::dvec4 a, b, c;
 };
 
-// One draw of triangles given in clip space. Primitive 0 lies inside, 1 has one corner behind the near plane and is cut
-// to four vertices, 2 sticks out at the right and is cut to four, 3 lies inside.
+// One draw of triangles in clip space, and exact's polygons of them. Primitives 0 and 3 lie inside; 1 has a corner
+// behind the near plane and 2 one beyond the right plane: each is cut to four vertices.
 struct Polygons : testing::Test {
   Polygons() {
     set({{{-0.5, -0.5, 0, 1}, {0.5, -0.25, 0.25, 1}, {0, 0.75, 0.5, 2}},

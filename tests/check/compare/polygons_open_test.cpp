@@ -14,7 +14,7 @@ struct OpenPolygons : Polygons {
     in.records.polygons = {};
     records.polygons = exact::make_exact()->run_stage(scene, Stage::clip, in).records.polygons;
   }
-  // The end of the line at share t of it.
+  // The vertex of the line at share t of the way from its first end.
   ClipVertex<double> on_line(double t, bool cut) const {
     return {glm::mix(records.vertices[0].p_clip, records.vertices[1].p_clip, t),
             glm::mix(records.lit[0].color, records.lit[1].color, t), cut};

@@ -289,7 +289,8 @@ struct TexelPlanes : testing::Test {
     capture.planes.id = Plane<std::int32_t>(kSide, kSide, 0);
     capture.planes.texel = Plane<glm::vec4>(kSide, kSide);
   }
-  // The corners' coordinates, and every fragment's, or what its plane comes to.
+  // Compares the texel plane of a triangle with these corner coordinates, every fragment at `record` (none:
+  // interpolated).
   Measurement of(std::array<Vec2<double>, 3> corners, std::optional<Vec2<double>> record = {}) {
     Records<double>& r = capture.records;
     auto& columns = r.varyings[Varying::texture];

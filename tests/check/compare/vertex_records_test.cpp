@@ -7,8 +7,6 @@
 namespace plumbline::check {
 namespace {
 
-// What a comparison comes to when the candidate's records alone, and when the reference's alone, are changed.
-
 struct MatrixRecords : testing::Test {
   MatrixRecords() {
     records.matrices.resize(2);

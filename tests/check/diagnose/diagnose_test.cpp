@@ -78,7 +78,7 @@ TEST_F(Diagnose, NamesEachPairAndAllAtOnce) {
   EXPECT_EQ(of(all).wrong, Stages(std::begin(kOfScene), std::end(kOfScene)));
 }
 
-// The first leaves the second nothing to be wrong with.
+// A window stage that hands on nothing leaves the fault of attributes no pixel to show on.
 TEST_F(Diagnose, NamesWhatAFaultBeforeItHides) {
   scene = suite_scene("interpolation/w_ratio");
   pipeline::Stages stages = pipeline::production_stages();

@@ -39,7 +39,7 @@ class Goldens : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // What is drawn, made the scene's golden.
+  // Writes what is drawn as the scene's golden.
   void bless(const Scene& scene, const Fingerprint& drawn) {
     GoldenSet set(folder_ / "golden", GoldenSet::Access::update);
     std::map<std::string, std::string> files;

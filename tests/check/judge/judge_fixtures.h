@@ -11,7 +11,7 @@
 
 namespace plumbline::check {
 
-// A renderer whose answers are changed on the way.
+// A renderer, with hooks that change its answers.
 class Changed : public Renderer {
  public:
   explicit Changed(std::unique_ptr<Renderer> inner) : inner_(std::move(inner)) {}
@@ -40,6 +40,8 @@ class Changed : public Renderer {
   std::unique_ptr<Renderer> inner_;
 };
 
+// A pipeline as candidate, and three references: `witness`, a pipeline with OpenGL's profile whose stages cannot be
+// run; `oracle`, which shows planes and legal answers alone; `referee`, exact without legal answers.
 struct Judge : testing::Test {
   Judge() {
     candidate.on_info = [](RendererInfo& info) { info.painters.clear(); };  // picture_test.cpp's
@@ -73,7 +75,7 @@ struct Judge : testing::Test {
     return static_cast<std::size_t>(
         std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.second.outcome == outcome; }));
   }
-  // A pixel that something covers, and its number in the legal answers.
+  // The first pixel, x and y from 1 on, that exactly one fragment covers; (-1, -1): there is none.
   static glm::ivec2 covered_pixel(const Planes& planes) {
     for (int y = 1; y < planes.id.height(); ++y) {
       for (int x = 0; x < planes.id.width(); ++x) {

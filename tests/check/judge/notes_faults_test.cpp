@@ -25,7 +25,7 @@ namespace {
 
 const std::filesystem::path kFolder = PLUMBLINE_SOURCE_DIR "/tests/scenes/notes";
 
-/// By the file's name, without its ending.
+/// The scenes of the notes, by file name without its ending.
 const std::map<std::string, Scene>& scenes() {
   static const std::map<std::string, Scene> kScenes = [] {
     const std::filesystem::path folder[] = {kFolder};
@@ -71,7 +71,7 @@ int pixels_drawn(const Capture& capture) {
   return static_cast<int>(id.size()) - static_cast<int>(std::count(id.begin(), id.end(), kBackground));
 }
 
-/// How often each pixel is covered.
+/// Numbers of pixels that are covered never, once, and more often; and how often at most.
 struct Count {
   int never = 0, once = 0, more = 0, most = 0;
 };

@@ -1,4 +1,4 @@
-// A renderer that is wrong, each by itself, in stages of choice.
+// A renderer in which chosen stages are wrong, each by itself.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,8 @@
 
 namespace plumbline::check {
 
-/// Changes one thing of what the stage handed on, by more than any tolerance; what it leaves fits together.
+/// Changes what the stage handed on by more than any tolerance, and keeps it consistent: one field of all its records;
+/// of coverage and visibility one fragment, of merge and resolve pixel (0, 0).
 inline void spoil(const Scene& scene, Stage stage, Capture& c) {
   Records<double>& r = c.records;
   const auto turned = [](double value) { return value > 0.5 ? 0.25 : 0.75; };
@@ -61,7 +62,8 @@ inline void spoil(const Scene& scene, Stage stage, Capture& c) {
   }
 }
 
-/// Its stages run one after the other, those of `wrong` spoiled.
+/// Runs `inner`'s stages 0 to 11 one after the other, those of `wrong` spoiled. Captures of antialiased scenes are
+/// `inner`'s own.
 class Spoiled : public Renderer {
  public:
   Spoiled(std::unique_ptr<Renderer> inner, std::set<Stage> wrong)

@@ -10,7 +10,8 @@
 namespace plumbline::check {
 namespace {
 
-// Rows of a scene judged in worker processes, one a line; `ends` gets how the workers ended, by step.
+// judge() in worker processes. rows() returns one line per row; `ends` gets how workers ended, by the step they were
+// in.
 struct JudgeWatched : Judge {
   JudgeWatched() {
     candidate.on_info = [](RendererInfo&) {};  // it paints
@@ -54,7 +55,7 @@ struct JudgeWatched : Judge {
               }});
     return out;
   }
-  std::function<void()> before_made = [] {};  // the witness
+  std::function<void()> before_made = [] {};  // runs before the witness is made
 
   std::string rows(const std::function<void(Changed&, Changed&, Changed&)>& harm) {
     std::map<std::uint32_t, std::string> ends;

@@ -61,7 +61,7 @@ class KeptVerdicts : public Judge {
     folder = root;
   }
   ~KeptVerdicts() override { fs::remove_all(root); }
-  // How often the referee drew for it.
+  // Judges the scene, or recalls its verdict; returns how often the referee was asked for a capture.
   int judged_by_asking(const std::string& judges = "these") {
     check::KeptVerdicts kept{VerdictStore(folder),
                              judges,

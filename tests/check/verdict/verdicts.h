@@ -1,4 +1,4 @@
-// Verdicts of made up rows, for tests of what is written of them.
+// Made-up rows and verdicts, for the tests of reports.
 #pragma once
 
 #include <string>
@@ -9,6 +9,8 @@
 
 namespace plumbline::report {
 
+/// A row of osmesa's stage clip: 1536 items, of which 17 differ (outcome `different`) or 5 are ambiguous
+/// (`ambiguous_only`).
 inline check::Comparison compared(check::Outcome outcome, double difference = 0, double tolerance = 0) {
   check::Measurement m;
   m.unit = "u";
@@ -24,6 +26,7 @@ inline check::Comparison compared(check::Outcome outcome, double difference = 0,
   m.histogram[0] = 1536;
   return {"group/scene", "osmesa", Stage::clip, outcome, m, "exact.clip", ""};
 }
+/// A row of embree's stage light that was not judged.
 inline check::Comparison not_compared(check::Outcome outcome, std::string why) {
   return check::not_judged("group/scene", "embree", Stage::light, outcome, std::move(why));
 }

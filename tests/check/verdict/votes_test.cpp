@@ -17,7 +17,7 @@ Comparison row(const JudgeId& judge, Stage stage, Outcome outcome) {
   return c;
 }
 
-// Of coverage: osmesa's row stands alone. With other rows after it.
+// Rows in which osmesa alone differs, in stage coverage; `more` is appended.
 std::vector<Comparison> rows(std::vector<Comparison> more = {}) {
   std::vector<Comparison> out = {
       row("osmesa", Stage::coverage, Outcome::different), row("embree", Stage::coverage, Outcome::ambiguous_only),
@@ -103,7 +103,7 @@ TEST(Votes, WhatIsSettledStandsInNoLaterStagesWay) {
   EXPECT_EQ(settled(all).outcome, Outcome::dispute);
 }
 
-// Rows after leave_recipes_to_exact().
+// Outcome of the first row after leave_recipes_to_exact().
 Outcome first_left(std::vector<Comparison> all) {
   leave_recipes_to_exact(all);
   return all[0].outcome;
