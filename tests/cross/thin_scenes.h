@@ -7,7 +7,7 @@
 
 namespace plumbline::test {
 
-/// Lines that join each two positions, or the positions as points. Normals are +z.
+/// Points, one for each position, or lines, one for each pair (0 to 1, 2 to 3, ...). Normals are +z.
 inline Mesh thin_mesh(Topology topology, std::vector<glm::vec3> positions, std::vector<glm::vec4> colors = {}) {
   Mesh mesh;
   mesh.normals.assign(positions.size(), glm::vec3(0, 0, 1));
@@ -36,7 +36,7 @@ class RandomThings {
   std::mt19937 engine_;
 };
 
-/// Lines (or points) around the eye, in perspective: many of them cut, or behind.
+/// `count` random lines, or 2 * count points, around the eye, in perspective: many are clipped, or behind the eye.
 inline Scene thin_cloud(Topology topology, int count, unsigned seed) {
   RandomThings random(seed);
   Scene scene;

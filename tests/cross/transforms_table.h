@@ -18,7 +18,7 @@
 
 namespace plumbline::test {
 
-/// The reference's numbers: of 64 bits where the machine has them, so that what is measured is our error alone.
+/// The reference's numbers. Where they have 64 significant bits (x86), what is measured is our error alone.
 using Wide = long double;
 using WideVec3 = glm::vec<3, Wide>;
 using WideMat4 = glm::mat<4, 4, Wide>;
@@ -36,7 +36,7 @@ class Inputs {
   double between(double least, double most) {
     return least + (most - least) * std::ldexp(static_cast<double>(bits_() >> 11), -53);
   }
-  /// Evenly in the exponent, of either sign.
+  /// Either sign; the magnitude's logarithm is uniform in [log least, log most).
   double of_any_size(double least, double most) {
     const double size = std::exp2(between(std::log2(least), std::log2(most)));
     return bits_() % 2 == 0 ? size : -size;
@@ -45,7 +45,7 @@ class Inputs {
     const double x = between(-reach, reach), y = between(-reach, reach);
     return {x, y, between(-reach, reach)};
   }
-  /// Neither near 0 in length nor, in [-reach, reach]^3, of any other preference.
+  /// Uniform in [-reach, reach]^3 but for vectors of length up to reach / 16.
   glm::dvec3 direction(double reach) {
     for (;;) {
       const glm::dvec3 v = point(reach);
@@ -64,7 +64,8 @@ struct Entry {
 };
 using Entries = std::vector<Entry>;
 
-/// One line of the table. `digits`: of the number whose ULP is the unit, 53 or 24. The bound is in ULP.
+/// One line of the table. `digits`: significant bits of the number whose ULP is the unit, 53 (double) or 24 (float).
+/// `bound` [ULP].
 struct Row {
   const char* formula;  ///< with its note
   const char* ours;

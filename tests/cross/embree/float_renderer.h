@@ -17,13 +17,13 @@
 
 namespace plumbline::test {
 
-/// How a float renderer goes about it.
+/// Choices in which legal float renderers differ.
 struct Habits {
   bool by_eye = false;          ///< P (M p) rather than (P M) p
   bool in_double = false;       ///< the transform in double, rounded at the end
-  bool snapped_planes = false;  ///< depth and colour through the snapped positions
-  bool reversed_clip = false;   ///< planes in the other order
-  double jitter = 0;            ///< every clip coordinate by up to so many float roundings of itself
+  bool snapped_planes = false;  ///< depth and colour by planes through the snapped corners
+  bool reversed_clip = false;   ///< cut at the far plane first, at the right one last
+  double jitter = 0;            ///< largest relative error of a clip coordinate [2^-24]
 };
 
 struct FloatVertex {
@@ -31,6 +31,7 @@ struct FloatVertex {
   glm::dvec4 color;
 };
 
+/// Window z as the format holds it: the nearest code over the largest one; of z32f the nearest float.
 inline double depth_code(DepthFormat format, double z) {
   const double scale = depth_scale(format);
   return scale > 0 ? std::nearbyint(z * scale) / scale : static_cast<double>(static_cast<float>(z));

@@ -8,7 +8,8 @@
 namespace plumbline {
 namespace {
 
-/// Two draws that cross each other, one of them through the near plane, lit and unlit, flat and smooth.
+/// Three draws of a square: a lit one; an unlit one that crosses the first and the near plane; and a flat, unlit one
+/// behind, drawn where depths are greater.
 Scene crossing() {
   Scene scene;
   scene.name = "crossing";

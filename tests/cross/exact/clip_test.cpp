@@ -12,7 +12,7 @@ namespace {
 
 using Polygon = std::vector<ClipVertex<double>>;
 
-/// Colours tell how far along each corner's red, green and blue a cut lies.
+/// Clips a triangle with a red, a green and a blue corner: a cut's colour is its barycentric coordinates.
 Polygon clip(glm::dvec4 a, glm::dvec4 b, glm::dvec4 c) {
   return exact::clip_triangle({{{a, {1, 0, 0, 1}, false}, {b, {0, 1, 0, 1}, false}, {c, {0, 0, 1, 1}, false}}});
 }
@@ -26,7 +26,8 @@ void expect_polygon(const Polygon& is, const Polygon& expected) {
   }
 }
 
-/// The volume mirrored or turned so that what was said of the plane x <= w is said of another.
+/// A point given for the plane x <= w, moved to plane 0 to 5 (right, left, top, bottom, near, far) by a symmetry of the
+/// view volume.
 glm::dvec4 turned(glm::dvec4 p, int plane) {
   const int axis = plane / 2;
   const double sign = plane == 0 || plane == 2 || plane == 5 ? 1 : -1;  // right, top and far are the upper ends

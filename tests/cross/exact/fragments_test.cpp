@@ -93,7 +93,7 @@ Sliver random_sliver(std::mt19937& random) {
   return sliver;
 }
 
-/// Twice the areas of the triangles that the point makes with each side, over the whole, as plain products.
+/// Barycentric coordinates of the pixel's centre in the unsnapped triangle, by plain products in 113 bits.
 std::array<Float128, 3> areas(const WindowTriangle<double>& t, int x, int y) {
   const Float128 px = x + 0.5, py = y + 0.5;
   std::array<Float128, 3> area;

@@ -63,8 +63,8 @@ TEST(FrameColor, AFloatFrameIsNotClamped) {
   EXPECT_EQ(math::high(color.written()), glm::vec4(-1.5f, 1.5f, 4, 1.5f));
 }
 
-// Random states and layers: each time the pipeline's frame is inside, half a code beyond at most; and where the colours
-// are known exactly, the interval is a code wide now and then alone.
+// Random states and layers: the pipeline's frame is inside the interval, or beyond it by half a code at most; and where
+// the colours are known exactly, less than one interval in a hundred is wider than 1e-6.
 TEST(FrameColor, HoldsThePipelines) {
   std::mt19937 random(5);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };

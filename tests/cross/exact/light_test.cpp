@@ -8,7 +8,7 @@
 namespace plumbline {
 namespace {
 
-// One draw under one white light without ambient, seen by the identity; a material that answers with nothing.
+// One draw under one white light without an ambient colour. Eye space is the world; the material is 0 until set.
 struct Lamp : testing::Test {
   Lamp() {
     scene.camera = {.eye = {0, 0, 0}, .center = {0, 0, -1}, .up = {0, 1, 0}};

@@ -7,7 +7,7 @@
 namespace plumbline::test {
 namespace {
 
-/// Of the fixed function's vertices, one, by lights on the camera's side. Numbers that a float holds.
+/// One vertex of the fixed function under three directional lights of any direction; colours and normal are floats.
 struct Lamps {
   Scene scene;
   Draw draw;

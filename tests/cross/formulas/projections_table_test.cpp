@@ -7,7 +7,7 @@ namespace {
 
 namespace tf = transforms;
 
-// Near and far as distances; the plane is what lies at the near one.
+// A view volume: the distances of its near and far planes, and its sides where the near plane cuts them.
 struct Volume {
   tf::NearPlane plane;
   double near, far;

@@ -1,4 +1,5 @@
-// What ships and what is captured are one path: the planes without a tap equal those with it, bit for bit.
+// Recording changes nothing: the frame without a recorder has the colours, depths and stencil values of a capture with
+// all records, bit for bit.
 #include <gtest/gtest.h>
 
 #include "renderers/pipeline_renderer.h"

@@ -29,8 +29,8 @@ std::string gl_version() {
   return reinterpret_cast<const char*>(load(*context).GetString(GL_VERSION));
 }
 
-// Reads the polygons as the reference does, without asking crashes_in_feedback(). Ends the process: 0,
-// or 1 where there are none.
+// Reads the polygons as the reference does, without asking crashes_in_feedback(). Ends the process: 0, or 1 where there
+// are none.
 void read_in_feedback() {
   const Scene scene = crashing_scene();
   const auto context = make_opengl_context(MesaDriver::llvmpipe);

@@ -15,7 +15,7 @@ namespace {
 
 const Request kRecords{StageSet::all(), false, {}, {}};
 
-/// Each a line's pixels, in draw order; none of lines that are wholly outside.
+/// The pixels of each window line, in draw order. Lines that are wholly outside have no window line.
 std::vector<std::vector<glm::ivec2>> pixels_by_line(const Capture& capture) {
   std::vector<std::vector<glm::ivec2>> lines(capture.records.triangles.size());
   for (const Covered& c : capture.records.covered) lines[c.triangle].emplace_back(c.x, c.y);

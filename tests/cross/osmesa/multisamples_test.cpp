@@ -86,7 +86,7 @@ TEST(OsmesaMultisamples, TheResolvedDepthIsSampleZeros) {
 }
 
 // A pixel beside the box has samples in its far half: the scissor test is the pixel's (OpenGL 2.1, section 4.1.2), but
-// llvmpipe draws those to the left of a box and below it. Where it no longer does, a dispute less.
+// llvmpipe draws those to the left of a box and below it. A Mesa that no longer does has one dispute less.
 TEST(OsmesaMultisamples, AScissorBoxIsHalfAPixelTooWide) {
   Scene scene = test::window_scene(8, 8, {{{-99, -99, 0.5}, {99, -99, 0.5}, {0, 99, 0.5}}});
   scene.draws[0].scissor = Scissor{2, 3, 4, 2};

@@ -1,4 +1,5 @@
-// Random triangles of every kind against OSMesa, end to end from the scene: the same coverage counts, bit for bit.
+// Random triangles of every kind against OSMesa, end to end from the scene: every stage within its bounds, and the same
+// coverage counts, bit for bit, but for disputes where faces are culled.
 #include <gtest/gtest.h>
 
 #include "check/judge/judge.h"

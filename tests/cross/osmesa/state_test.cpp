@@ -45,7 +45,7 @@ Scene plain_scene() {
   return scene;
 }
 
-// Everything that a scene can set, set to something else.
+// A scene whose frame, lights, material and depth state all differ from those of plain_scene() and lit_scene().
 Scene busy_scene() {
   Scene scene;
   scene.name = "test/busy";

@@ -1,4 +1,5 @@
-// Textures drawn by OSMesa, against the filter in double: its levels of detail are what reference/arithmetic says of them.
+// Textures drawn by OSMesa, against the filter in double: its levels of detail are those that reference/arithmetic
+// states.
 #include <gtest/gtest.h>
 
 #include <algorithm>
