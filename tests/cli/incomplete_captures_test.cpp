@@ -155,7 +155,8 @@ TEST_F(IncompleteCaptures, AreJudgedAsFarAsTheyGo) {
   }
 }
 
-// Winners alone do not tell which of several legal fragments of a line wins, and no plane that is not there is compared.
+// Winners alone do not tell which of several legal fragments of a line wins, and a plane that is not there is not
+// compared.
 TEST_F(IncompleteCaptures, HaveNoJudgedWinnersOfLinesWithoutFragments) {
   const std::string lines = kScenes + "lines/star.json";
   const Capture whole = pipeline::make_pipeline()->capture(load_scene(lines, {}), {StageSet::all(), false, {}, {}});

@@ -50,7 +50,7 @@ TEST_F(Cli, learn_finds_that_a_server_keeps_a_state) {
   EXPECT_FALSE(plumb("learn" + kLearnedProgram).says("drawn otherwise"));
 }
 
-// Leaves colour and depth alone in a capture.
+// Drops all arrays but colour and depth from a capture's manifest.
 void leave_the_frame(const std::string& path) {
   std::ifstream in(path);
   auto manifest = nlohmann::json::parse(in);

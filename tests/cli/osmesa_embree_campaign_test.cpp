@@ -182,7 +182,8 @@ TEST_F(Campaign, NamesTheFileOfABadRound) {
   EXPECT_TRUE(none.says("rounds/1.txt: expected scenes, found none")) << none.text;
 }
 
-// The process that does the work of the others, once there are three: supervisor, program, worker.
+// The worker of a run whose environment holds `mark`: a process whose parent and grandparent (program, supervisor) are
+// of the run as well; 0: there is none yet.
 pid_t worker_of(const std::string& mark) {
   std::map<pid_t, pid_t> parents;
   for (const auto& entry : fs::directory_iterator("/proc")) {
@@ -198,7 +199,8 @@ pid_t worker_of(const std::string& mark) {
   return 0;
 }
 
-// Whoever kills a worker once means no scene: what follows is the scene's own, here that its reference hangs.
+// A worker killed from outside says nothing of its scene, which is asked for again; what happens then is the scene's
+// own (here its reference hangs).
 TEST_F(Campaign, AsksAgainWhereAWorkerWasKilled) {
   const std::string mark = "PLUMBLINE_KILLED_WORKER=" + folder_.string();
   auto killed = std::async(std::launch::async, [&] {
@@ -291,8 +293,8 @@ TEST_F(Campaign, GoesInRounds) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "one/hard"), fs::directory_iterator()), 1);
 }
 
-// A campaign is killed and begun again until it ends; then the next one. PLUMBLINE_KILLS: how often; scripts/kill_updates
-// asks for many.
+// A campaign is killed and begun again until it ends; then the next one. PLUMBLINE_KILLS: how often
+// (scripts/kill_updates asks for many).
 TEST_F(Campaign, LosesNothingWhenItIsKilled) {
   const std::string options = "--seeds 1..30 --against exact --jobs 2" + kTruncates;
   const auto start = std::chrono::steady_clock::now();

@@ -67,7 +67,8 @@ class KilledRuns : public Cli {
     return out;
   }
 
-  // Runs it whole twice, then kills it at moments spread over that time. `holds`: whether what it writes is whole.
+  // Runs plumb whole twice; then kills PLUMBLINE_KILLS runs (3 unless set) by each of INT, TERM, HUP and KILL, at
+  // moments spread over the shorter run's time. `holds`: whether what a run writes is whole.
   void kill_at_all_moments(const std::string& arguments, const std::function<bool()>& holds) {
     const char* said = std::getenv("PLUMBLINE_KILLS");
     const int kills = said != nullptr ? std::atoi(said) : 3;

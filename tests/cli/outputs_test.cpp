@@ -15,7 +15,7 @@ using Names = std::set<std::string>;
 const std::string kBothWindings = kScenes + "cull/both_windings.json";
 const std::string kCheck = "check " + kBothWindings + " --against exact";
 
-// An output that cannot be: its option and path, and the reason that must be told.
+// An output path that cannot be written, and the reason that must be told.
 struct Bad {
   std::string path, reason;
 };

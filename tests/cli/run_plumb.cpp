@@ -13,7 +13,7 @@ namespace plumbline {
 
 namespace {
 
-// Each test's runs judge for themselves.
+// No run recalls the verdict of an earlier one.
 [[maybe_unused]] const int kNoCache = ::setenv("PLUMBLINE_NO_CACHE", "1", 1);
 
 bool needs_program(const std::string& arguments) {
@@ -45,7 +45,7 @@ Outcome plumb(const std::string& arguments) {
   if (needs_program(arguments) || ::wordexp(arguments.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) != 0) {
     return shell(PLUMBLINE_PLUMB " " + arguments);
   }
-  image_codec();  // once, for all of them
+  image_codec();  // loads OpenImageIO once, for all forks
   std::fflush(nullptr);
   int ends[2];
   if (::pipe(ends) != 0) throw std::runtime_error("no pipe");

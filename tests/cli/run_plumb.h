@@ -21,12 +21,12 @@ namespace plumbline {
 namespace fs = std::filesystem;
 
 struct Outcome {
-  int code;
+  int code;          // exit code, of the shell by shell(); -1: a signal ended it
   std::string text;  // stdout and stderr
   bool says(const std::string& part) const { return text.find(part) != std::string::npos; }
 };
 
-// A line for the shell.
+// Runs a line by /bin/sh, and waits for it.
 inline Outcome shell(const std::string& line) {
   FILE* pipe = popen(("{ " + line + "\n} 2>&1").c_str(), "r");
   Outcome run{-1, ""};
@@ -37,9 +37,10 @@ inline Outcome shell(const std::string& line) {
   return run;
 }
 
-/// plumb's main() with a shell's words for arguments, in a process of its own that begins as a copy of this one, so
-/// that it need not load its libraries, a quarter of a second of them. What a shell alone can do, and what starts plumb
-/// once more, is done by the program itself.
+/// Runs plumb with arguments quoted as for a shell. plumb_main() runs in a fork of this process, which saves loading
+/// the libraries (a quarter of a second). Arguments that need a shell (pipes, redirections, variables, wildcards) or
+/// that may start more processes (egl, softpipe, --program, list) go to the program itself, by shell(); under
+/// AddressSanitizer all do. Throws std::runtime_error where there is no pipe.
 Outcome plumb(const std::string& arguments);
 
 inline std::string read(const fs::path& file) {
