@@ -1,5 +1,5 @@
-// Renderers that end the process, never end, or throw: for tests of what becomes of the other rows. None is a bug that
-// is listed.
+// Renderers that end the process, never end, take all memory or throw: for tests of what becomes of the other rows. No
+// list of faults has them.
 #pragma once
 
 #include <memory>
@@ -13,17 +13,17 @@
 
 namespace plumbline::faults {
 
-/// Faults of our pipeline.
+/// Endings of our pipeline: endings.throw, .memory, .crash and .hang.
 std::span<const Fault> endings();
 
 /// A reference that ends at one scene.
 struct ReferenceEnding {
   std::string how, reference, scene;
 };
-/// The ending that is written `endings.HOW:REFERENCE:SCENE`, HOW one of throw, memory, crash, exit and hang; none:
-/// `fault` is not written so.
+/// Parses `endings.HOW:REFERENCE:SCENE`, HOW one of throw, memory, crash, exit and hang; none: `fault` has another
+/// form.
 std::optional<ReferenceEnding> reference_ending(std::string_view fault);
-/// `inner`, whose capture() of the scene ends so.
+/// `inner`, but capture() of the scene of that name ends as `ending.how` says.
 std::unique_ptr<Renderer> make_ending(std::unique_ptr<Renderer> inner, ReferenceEnding ending);
 
 }  // namespace plumbline::faults

@@ -1,5 +1,5 @@
-// A bug that people really make, in one stage: a stage function of the pipeline replaced by one with the bug. The stages
-// after it run as they are. Faults prove that the harness sees, and names, what breaks a renderer.
+// A fault: a bug that people really make, in one stage. It replaces that stage's functions in the pipeline; all other
+// stages stay right. Faults prove that the harness sees and names what breaks a renderer.
 #pragma once
 
 #include <string_view>
@@ -13,12 +13,12 @@ struct Fault {
   std::string_view name;             ///< stage.bug, or notes.note.mistake (notes.h)
   std::string_view changes;          ///< what it does, in words
   Stage stage;                       ///< the stage that must be named
-  void (*apply)(pipeline::Stages&);  ///< puts its functions in
+  void (*apply)(pipeline::Stages&);  ///< puts the fault's functions in, over those that are there
   /// The thread of a public renderer that reports it (owner/repository#number): written from that report alone, before
   /// its writer had read how faults are found.
   std::string_view report = {};
 
-  /// The pipeline with it.
+  /// The pipeline's stages with the fault alone.
   pipeline::Stages stages() const;
 };
 

@@ -8,12 +8,12 @@
 
 namespace plumbline::faults {
 
-/// By stage.
+/// The faults of all stages, list after list as in lists.h.
 std::span<const Fault> of_stages();
-/// Those, and the notes' (notes.h).
+/// of_stages(), then of_notes() (notes.h).
 std::vector<Fault> all();
-/// No fault: polygons are cut at eight times the view volume's width and height, and the frame's sides are left to the
-/// raster.
+/// No fault, but a legal guard band: polygons are cut at the near and far planes and at eight times the view volume's
+/// width and height; coverage ends at the frame.
 void use_guard_band(pipeline::Stages& stages);
 
 }  // namespace plumbline::faults

@@ -34,7 +34,7 @@ bool of_triangles_alone(const Scene& scene) {
                      [](const Mesh& m) { return m.topology == Topology::triangles; });
 }
 
-// Light of two sides would fall on the other one.
+// Not under two-sided light, which takes the side from the winding.
 MaybeScene other_winding(const Scene& of) {
   if (of.light_model.sides == LightModel::Sides::two || !of_triangles_alone(of)) return {};
   Scene scene = of;

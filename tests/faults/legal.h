@@ -1,5 +1,4 @@
-// What is no bug: other ways to say the same scene, and to draw it, that the rules allow. The harness must raise
-// nothing.
+// Legal variants: other ways to state a scene, or to draw it, that the rules allow. The harness must raise nothing.
 #pragma once
 
 #include <optional>
@@ -11,13 +10,13 @@
 
 namespace plumbline::faults {
 
-/// One of the two is there.
+/// One of `scene` and `apply` is set.
 struct Variant {
   std::string_view name;
   std::string_view says;                                  ///< what is otherwise, and why that is allowed
-  std::optional<Scene> (*scene)(const Scene&) = nullptr;  ///< the scene said otherwise; none: there is no such way
+  std::optional<Scene> (*scene)(const Scene&) = nullptr;  ///< the scene stated otherwise; none: it cannot be
   void (*apply)(pipeline::Stages&) = nullptr;             ///< puts its functions into the pipeline
-  bool same_bits = false;                                 ///< not a bit of the picture may change
+  bool same_bits = false;                                 ///< every bit of the picture must stay
 };
 
 std::span<const Variant> legal_variants();

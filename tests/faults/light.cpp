@@ -45,7 +45,7 @@ constexpr auto kHalfTheCone = [](Scene& scene, Draw&) {
   }
 };
 
-// A second light of each that has a cone shines the other way, as far as there are so many.
+// Each light with a cone gets a twin that shines the other way, up to 8 lights in all.
 constexpr auto kConesBothWays = [](Scene& scene, Draw&) {
   const std::vector<Light> lights = scene.lights;
   for (Light light : lights) {
@@ -104,7 +104,8 @@ void back_color_is_the_fronts(const Scene& scene, const Draw& draw, const Mesh& 
   for (std::size_t i = first; i < out.size(); ++i) out[i][Varying::back_color] = out[i].color();
 }
 
-// Of the vertices before their cut: the fog of a primitive that reaches behind the eye grows towards it.
+// |z_eye| at the vertices, before clipping: on a primitive that reaches behind the eye, what is interpolated grows
+// towards the vertices there.
 void positions_by_distance(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
                            LitVertices& out) {
   const std::size_t first = out.size();
@@ -123,7 +124,8 @@ pipeline::Shaded no_color_sum(const pipeline::Surface& surface, bool front,
   return {pipeline::shade<float>(surface, front, primary)};
 }
 
-// The fragments of a surface without fog, of one side.
+// Light by the interpolated normal as it is. Surfaces with fog, two-sided light, a separate specular colour or colour
+// material are left right.
 pipeline::Shaded short_normals(const pipeline::Surface& surface, bool front,
                                const pipeline::SurfaceAttributes<float>& a) {
   const LightModel& model = surface.scene->light_model;

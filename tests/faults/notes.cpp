@@ -83,7 +83,8 @@ void no_clamp_of_n_l(const Scene& scene, const Draw& draw, const Mesh& mesh, pip
   pipeline::light(wrong, draw, mesh, opposite, vertices, out);
 }
 
-// N.L and N.E both below 0: N is turned; one of them: no light. As though every N with N.E < 0 were turned.
+// GzRender turns N over where N.L and N.E are both below 0, and leaves the light out where one is. The mistake: N is
+// turned wherever N.E < 0.
 void flipped_normals(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
                      std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   std::vector<Vertex<float>> facing(vertices.begin(), vertices.end());

@@ -1,6 +1,6 @@
-// What the notes get wrong, leave open, or warn of, as faults: `notes.` the note's number `.` the mistake. 000 is
-// GzRender, 001 GAMES101, 002 TinyRenderer, 004 the class notes of CSCI 580. A mistake that is right under its own
-// dialect's other conventions changes nothing there.
+// Mistakes, gaps and warnings of the course notes as faults, named notes.NUMBER.MISTAKE. 000 is GzRender, 001 GAMES101
+// (no fault), 002 TinyRenderer, 004 the class notes of CSCI 580. A mistake that is right by the conventions of its own
+// dialect changes nothing there.
 //
 // Without a fault: the midpoint's b/2 (004, section 2.2), which no integer holds, and loops to x = xs (000), which
 // leave the frame: no picture can show them.

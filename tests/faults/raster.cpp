@@ -24,7 +24,7 @@ PixelList triangles_by(const Triangle& t, const PixelBounds& box) {
   return t.corners == 3 ? pixels(t, box) : pipeline::covered_pixels(t, box);
 }
 
-// Of 1/256 pixel squared, from triangles of some 180 x 180 pixels on.
+// Edge functions in 32 bits [(1/256 pixel)^2]: they overflow from triangles of some 180 x 180 pixels on.
 PixelList in_32_bits(const Triangle& t, const PixelBounds& box) {
   const pipeline::Edges edges = pipeline::edges_of(t);
   PixelList out;
@@ -80,7 +80,7 @@ PixelList line_end_drawn(const Triangle& t, const PixelBounds& box) {
   return pixels;
 }
 
-// In the order in which a line is drawn.
+// The first pixel in each column, in the order in which the line is drawn.
 PixelList steep_lines_torn(const Triangle& t, const PixelBounds& box) {
   PixelList one_per_column;
   for (const glm::ivec2 p : pixels_in_order(t, box)) {
@@ -89,7 +89,7 @@ PixelList steep_lines_torn(const Triangle& t, const PixelBounds& box) {
   return one_per_column;
 }
 
-// Every pixel of the line of width 1 becomes a row of an x-major line, a column of a y-major one.
+// Each pixel of the line of width 1 becomes a run of `width` pixels along the major axis.
 PixelList lines_widened_along(const Triangle& t, const PixelBounds& box) {
   if (t.corners != 2 || t.width == 1) return pipeline::covered_pixels(t, box);
   Triangle of_width_1 = t;
@@ -114,7 +114,7 @@ PixelList points_off_by_half(const Triangle& t, const PixelBounds& box) {
   return pipeline::covered_pixels(moved, box);
 }
 
-// Samples mirrored in the pixel's middle row.
+// Coverage at samples mirrored in the pixel's middle row; depth at the right ones.
 pipeline::SampleOffsets mirrored_samples(glm::ivec2 sample) { return {{sample.x, -sample.y}, sample, {0, 0}}; }
 
 // 6. Depth.
@@ -142,7 +142,7 @@ constexpr auto kNotClamped = [](pipeline::DepthState& s) {
   s.high = 256;
 };
 
-// Of all corners the mean: what painters sort by.
+// The mean of the corners' depths, by which a painter's algorithm sorts.
 pipeline::DepthSetup one_depth(const Triangle& triangle, const pipeline::DepthState& state) {
   pipeline::DepthSetup s = pipeline::depth_setup(triangle, state);
   s.z0 += (s.dz1 + s.dz2) / 3;
@@ -174,7 +174,7 @@ float depth_at_corner(const Setup& s, const Pixels<float>& p) {
   return right_depth(s, Pixels<float>{p.x, p.y, p.x_win - 0.5, p.y_win - 0.5});
 }
 
-// z by the weights of attributes.
+// Window z by the perspective-correct weights of attributes.
 float depth_in_perspective(const Setup& s, const Pixels<float>& p) {
   const pipeline::Weights<float> w = weights_of(s, p);
   const double z = s.depth.z0 + static_cast<double>(w.k1) * s.depth.dz1 + static_cast<double>(w.k2) * s.depth.dz2;
@@ -211,7 +211,7 @@ Color<float> corners_turned(const Setup& s, const TriangleAttributes& of, const 
   return pipeline::mean<float>(of, pipeline::weights<float>(q[1], q[2], q[0] + q[1] + q[2]));
 }
 
-// By w for 1/w.
+// Weights by w instead of 1/w.
 Color<float> nearness_reversed(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
   std::array<float, 3> w = s.perspective.inv_w;
   for (float& inv_w : w) inv_w = 1 / inv_w;
@@ -229,7 +229,7 @@ Color<float> each_channel(const Setup& s, const TriangleAttributes& of, const Pi
 constexpr auto kClamped = [](float v) { return pipeline::clamp01(v); };
 constexpr auto kOf8Bits = [](float v) { return pipeline::round_even(v * 255) / 255; };
 
-// The sum of a / w is left at that.
+// The interpolated a / w, not divided by the interpolated 1/w.
 Color<float> not_divided(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
   const double inv_w = pipeline::value_at<float>(s.perspective.sum, pipeline::from_anchor<float>(s.planes, p));
   const Color<float> c = pipeline::mean<float>(of, weights_of(s, p));

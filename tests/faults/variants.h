@@ -1,4 +1,4 @@
-// What faults are made with; and the bugs that more than one list names.
+// Building blocks of faults, and bugs that several lists name.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ using Setup = pipeline::TriangleSetup;
 using pipeline::PixelBounds;
 using PixelList = std::vector<glm::ivec2>;
 
-/// `function` in the place of one of the stages'.
+/// Puts `function` in the place of one stage function: a member of Stages, or of its ResolveStage.
 template <auto member, auto function>
 void put(Stages& stages) {
   if constexpr (requires { stages.*member; }) {
@@ -30,8 +30,8 @@ void put(Stages& stages) {
   }
 }
 
-/// Coverage by another tie rule: `owns(step_x, step_y)` says whether an edge, into whose triangle these steps lead, has
-/// its own pixels in.
+/// Coverage by another tie rule: owns(step_x, step_y) says whether pixels on an edge are in. The steps are the edge
+/// function's, so that (step_x, step_y) points into the triangle.
 template <bool (*owns)(std::int64_t, std::int64_t)>
 PixelList tied(const Triangle& triangle, const PixelBounds& box) {
   if (triangle.corners != 3) return pipeline::covered_pixels(triangle, box);
@@ -51,23 +51,24 @@ inline Color<float> affine_attributes(const Setup& s, const pipeline::AttributeS
   return pipeline::mean<float>(of, pipeline::weights<float>(none, pipeline::from_anchor<float>(s.planes, p)));
 }
 
-/// How much farther the plane of depth is at a pass' sample than where its colours are taken.
+/// Window z at a pass' sample less window z where its colours are taken.
 inline double z_of_sample(const Setup& s) {
   const double there = pipeline::depth_plane(s.depth, s.planes).code.at_0;
   return (s.depth_plane.code.at_0 - there) / (s.depth.scale == 0 ? 1 : s.depth.scale);
 }
+/// Window z at a pass' sample, clamped to [0, 1].
 inline double window_z(const Setup& s, const Pixels<float>& p) {
   const Barycentric b = pipeline::barycentric(s.planes, p);
   return pipeline::clamp01(s.depth.z0 + b.l1 * s.depth.dz1 + b.l2 * s.depth.dz2 + z_of_sample(s));
 }
-/// The pipeline's own.
+/// The pipeline's own depth, in the depth format.
 inline float right_depth(const Setup& s, const Pixels<float>& p) {
   return pipeline::depth<float>(s.depth_plane, pipeline::from_anchor<float>(s.planes, p));
 }
 inline pipeline::Weights<float> weights_of(const Setup& s, const Pixels<float>& p) {
   return pipeline::weights<float>(s.perspective, pipeline::from_anchor<float>(s.planes, p));
 }
-/// Window z in the triangle's depth format.
+/// Window z, clamped to the draw's range, in the triangle's depth format: a code, or a float.
 inline float stored_depth(const pipeline::DepthSetup& s, double z) {
   const double unit = s.scale == 0 ? 1 : s.scale;
   return pipeline::depth<float>({{z * unit, 0, 0}, s.scale, s.low * unit, s.high * unit}, {0, 0});
