@@ -1,4 +1,4 @@
-// Which scenes a fault affects: whether any bit of what the pipeline hands on is another.
+// Scenes that a fault affects: those on which any bit of what the pipeline hands on differs.
 #include <array>
 #include <bitset>
 #include <cstdint>
@@ -29,7 +29,7 @@ const Stages& production() {
   return kStages;
 }
 
-// A stage function, of those that some scenes do without.
+// The stage function of a member of Stages, or of its ResolveStage.
 template <auto member>
 auto& of(Stages& stages) {
   if constexpr (requires { stages.*member; }) {
@@ -55,7 +55,7 @@ void watch(R (*&function)(A...)) {
 
 template <auto... members>
 struct Some {
-  // The pipeline, that notes which of them it calls.
+  // The pipeline, which notes for this thread which of the members it calls.
   static Stages watched() {
     Stages stages = production();
     (watch<members>(of<members>(stages)), ...);
@@ -78,7 +78,7 @@ struct Some {
 using Rare = Some<&Stages::scissor, &Stages::texture, &Stages::alpha_passes, &Stages::stencil_test, &Stages::blend,
                   &Stages::logic, &pipeline::ResolveStage::multisample, &pipeline::ResolveStage::weighted>;
 
-// Stages 0 to 4 of `stages`, the pipeline's own after them; and the other way round.
+// Stages 0 to 4 of `stages`, the pipeline's own after them.
 Stages geometry_of(const Stages& stages) {
   Stages out = production();
   out.matrices = stages.matrices;

@@ -16,7 +16,7 @@ namespace plumbline::matrix {
 
 namespace {
 
-// Exact on one scene: what it draws does not hang on whom it judges, and is drawn once.
+// Exact on one scene. Its captures do not depend on the candidate, so that each pass is drawn once and kept.
 class ExactOnce : public Renderer {
  public:
   RendererInfo info() const override { return info_; }

@@ -1,5 +1,5 @@
-// The fault matrix: every fault on the scenes that it affects, pairs of faults, and what is legal, each diagnosed by
-// exact. Asked is what a renderer's author would want: is it seen, and is what is broken what is named?
+// The fault matrix: every fault on the scenes that it affects, pairs of faults, and legal variants, each diagnosed by
+// exact. Is the fault seen, and is the broken stage the one that is named?
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct Answer {
   std::string by;              ///< reference and stage of the first row that differs; empty: nothing was seen
   std::optional<Stage> first;  ///< as check::Diagnosis has them
   std::vector<Stage> wrong;
-  std::string failed;  ///< the note of a row that failed, or empty
+  std::string failed;  ///< stage and note of the last row that failed; empty: none did
 
   bool seen() const { return !by.empty() || !wrong.empty() || !failed.empty(); }
 };
@@ -38,12 +38,12 @@ bool is_right(const Answer& answer, const Subject& subject);
 /// Numbers of scenes, ascending.
 using SceneList = std::vector<std::size_t>;
 
-/// For each subject the first `most` scenes on which the pipeline hands on anything else than it should: any bit of any
-/// record, or of the picture. Throws std::runtime_error that names subject and scene where it throws.
+/// For each subject the first `most` scenes that it affects: any bit of any record or of the picture is not the
+/// pipeline's own. Throws std::runtime_error with subject and scene where a pipeline throws.
 std::vector<SceneList> affected(std::span<const Scene> scenes, std::span<const Subject> subjects, std::size_t most,
                                 unsigned workers);
 
-/// For each subject the answers for its scenes, in their order.
+/// For each subject the answers on its scenes `on`, in their order. Each scene is judged by one of `workers` threads.
 std::vector<std::vector<Answer>> diagnosed(std::span<const Scene> scenes, std::span<const Subject> subjects,
                                            std::span<const SceneList> on, unsigned workers);
 

@@ -9,7 +9,8 @@
 
 namespace plumbline::matrix {
 
-/// job(0) to job(n - 1), each once, on so many threads. Throws what a job threw, the others done.
+/// Runs job(0) to job(n - 1), each once, on `workers` threads. After the last one, rethrows the exception of the first
+/// job, by number, that threw.
 void in_parallel(std::size_t n, unsigned workers, const auto& job) {
   std::atomic<std::size_t> next = 0;
   std::vector<std::exception_ptr> errors(n);

@@ -1,4 +1,4 @@
-// What the fault matrix says: as text, and as JSON.
+// The fault matrix' report: text and JSON.
 #pragma once
 
 #include <filesystem>
@@ -25,13 +25,15 @@ struct Matrix {
   double seconds = 0;
 };
 
-/// What must hold: shares of the answers, but for `caught`, the share of the faults that are seen on a scene at least.
+/// Shares [0, 1]: of the faults that are seen on one scene at least (`caught`), and of the right answers on faults,
+/// pairs and legal variants.
 struct Shares {
   double caught, faults, pairs, legal;
 };
 inline constexpr Shares kRequired = {1, 0.97, 0.85, 1};
-/// 1 of nothing.
+/// The shares of a matrix; a share of nothing is 1.
 Shares shares(const Matrix& matrix);
+/// Whether no share is below kRequired's.
 bool holds(const Shares& shares);
 
 std::string text_of(const Matrix& matrix);

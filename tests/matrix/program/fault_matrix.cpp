@@ -66,7 +66,8 @@ struct Pair {
   SceneList scenes;  // that each affects alone
 };
 
-// Two faults of two stages, at random; neither takes the other's place in the table.
+// Random pairs of faults in two stages, which replace different functions and affect a common scene; drawn by a fixed
+// seed until there are extent.pairs of them.
 std::vector<Pair> draw_pairs(std::span<const faults::Fault> all, std::span<const SceneList> on, const Extent& extent) {
   std::mt19937 random(1);
   std::vector<Pair> out;
@@ -100,7 +101,7 @@ std::vector<Row> rows_of(std::span<const Scene> scenes, std::vector<Subject> sub
   return out;
 }
 
-// A bug need not show where it changes the last bits: one scene after the other, until it is seen.
+// Judges each subject on one scene after the other, until it is seen: a fault that changes last bits alone need not be.
 std::vector<Row> until_seen(std::span<const Scene> scenes, std::vector<Subject> subjects,
                             const std::vector<SceneList>& on, unsigned workers) {
   std::vector<Row> rows = rows_of(scenes, std::move(subjects), on, 0, workers);
@@ -146,7 +147,7 @@ std::vector<Row> of_faults_and_pairs(std::span<const Scene> scenes, const Extent
   return rows;
 }
 
-// The pipeline itself on all scenes; on some, what is said or drawn otherwise.
+// Rows of the pipeline itself, on all scenes, and of each legal variant, on some.
 std::vector<Row> of_legal(const std::vector<Scene>& scenes, const Extent& extent, unsigned workers) {
   SceneList all(scenes.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
