@@ -22,12 +22,14 @@ struct CampaignOptions {
   unsigned workers = 2;  ///< 1: compiled and judged in turns; else one change is compiled while others are judged
 };
 
-/// `took` is called with each change as soon as it is judged, one at a time. Throws std::runtime_error where the
-/// sources as they are do not build or hold, and of a bad table.
+/// Judges the changes of all seeds, and returns them by seed and number. Calls took() with each change as soon as it is
+/// judged, one at a time, from any thread. Throws std::runtime_error where the sources as they are do not build or
+/// hold, and for a bad table or log.
 std::vector<Judged> run_campaign(const CampaignOptions& options, const std::vector<FileRule>& rules,
                                  const std::function<void(const Judged&)>& took);
 
-/// The changes of a seed, in order, numbered, of the sources below `root`.
+/// All changes of the sources below `root`, in the order in which the seed draws them, numbered from 1. Throws
+/// std::runtime_error or std::invalid_argument where `seed` is not hexadecimal.
 std::vector<Judged> changes_of_seed(const std::filesystem::path& root, const std::vector<FileRule>& rules,
                                     const std::string& seed);
 

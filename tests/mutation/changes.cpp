@@ -13,7 +13,7 @@ namespace plumbline::mutation {
 
 namespace {
 
-// Statements without effect on a picture: what is refused, reserved, or worked out while compiling.
+// Whether the statement has no effect on a picture: it throws, reserves memory, or is evaluated by the compiler.
 bool is_left_alone(const Source& s, std::size_t first, std::size_t last) {
   static const std::set<std::string_view> kWords = {"throw",
                                                     "static_assert",
@@ -42,7 +42,8 @@ bool is_left_alone(const Source& s, std::size_t first, std::size_t last) {
   return false;
 }
 
-// A definition outside of functions, or a declaration of an array within one, holds no arithmetic but of constants.
+// Whether the statement holds something to change: outside of functions a constexpr definition; within one a return, a
+// condition, an assignment, a comparison or a call.
 bool may_change(const Source& s, std::size_t first, std::size_t last) {
   const auto begin = s.tokens.begin() + static_cast<std::ptrdiff_t>(first);
   const auto end = s.tokens.begin() + static_cast<std::ptrdiff_t>(last) + 1;
@@ -90,7 +91,6 @@ std::vector<Change> changes_of(const std::string& file, std::string_view source)
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const std::size_t first = tokens[i].statement, last = last_of_statement(s, first);
     if (first >= tokens.size() || is_left_alone(s, first, last) || !may_change(s, first, last)) continue;
-    // Of the value in braces of a constant, the constant's own statement tells.
     if (i == first && tokens[i].in_function && s.word(last + 1) == ";" && !tokens[i].in_for) {
       drop_statement(s, first, last, emit);
     }

@@ -1,4 +1,4 @@
-// Which changes a seed comes to, and what the table of files says of each.
+// The changes that a seed draws, and the tables of files and of equivalent changes.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,12 @@ const FileRule* rule_of(const std::vector<FileRule>& rules, const std::string& p
 /// a source below src.
 std::map<std::string, std::string> sources_of(const std::filesystem::path& root, const std::vector<FileRule>& rules);
 
-/// Changes drawn by a seed: a line that has any, each as likely; of these a kind; of this one. No line is drawn twice.
-/// The same on every machine.
+/// A random order of changes, the same for a seed on every machine. Each draw takes one of the source lines that have
+/// changes and are left, one of the line's kinds of change, and one change of that kind, each with equal probability.
 class Draw {
  public:
   Draw(const std::map<std::string, std::string>& sources, const std::vector<FileRule>& rules, std::uint64_t seed);
-  /// Whether there is a next one.
+  /// Draws the next change. False: no line is left.
   bool next(Change& change);
 
  private:

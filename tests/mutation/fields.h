@@ -1,4 +1,4 @@
-// Text apart by a character.
+// Fields of a text, separated by a character.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace plumbline::mutation {
 
-/// At least one; empty fields count.
+/// The fields of `text` between separators `by`: at least one; empty ones count.
 inline std::vector<std::string> fields_of(std::string_view text, char by) {
   std::vector<std::string> out(1);
   for (const char c : text) {

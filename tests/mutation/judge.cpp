@@ -61,7 +61,7 @@ Judge::Judge(fs::path programs, fs::path scenes, fs::path out)
   }
 }
 
-// What fails without a change says nothing of one.
+// Throws where the scene fails without the change: its rows would say nothing of the change.
 void Judge::require_held(const std::string& scene, const std::string& name) const {
   const fs::path text = out_ / (name + ".as_it_is.txt");
   if (run(with_limits({programs_ / "plumb", "check", scenes_ / (scene + ".json")}), text, seconds_of(1)).ok()) return;

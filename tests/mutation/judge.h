@@ -23,7 +23,7 @@ enum class Outcome {
 inline constexpr std::size_t kOutcomes = 7;
 std::string_view name_of(Outcome outcome);
 
-/// Rows of one scene or of one diagnosis.
+/// What one check of a scene, or one diagnosis, names.
 struct Named {
   std::string first;  ///< stage, "picture", "ended", or "none"
   std::string by;     ///< reference and stage of the first row that fails
@@ -66,7 +66,7 @@ std::vector<Affected> affected(const SceneHashes& as_it_is, const SceneHashes& c
 /// The stage that plumb check announces, of each scene that fails, from its JSON; the first row's where it announces
 /// none (a crash), and `picture` where no other row fails.
 std::map<std::string, Named> named_by_check(const std::string& json);
-/// In that of plumb diagnose.
+/// The same of plumb diagnose's JSON, which has one scene.
 Named named_by_diagnose(const std::string& json);
 
 class Judge {
@@ -93,7 +93,7 @@ class Judge {
   std::filesystem::path programs_, scenes_, out_;
   SceneHashes as_it_is_;
   mutable std::once_flag random_drawn_;
-  mutable SceneHashes random_as_it_is_;  ///< when first needed
+  mutable SceneHashes random_as_it_is_;  ///< drawn when first needed
 };
 
 }  // namespace plumbline::mutation

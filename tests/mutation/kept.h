@@ -20,9 +20,9 @@ std::string sources_hash(const std::filesystem::path& root);
 /// The log's first line, which names the sources that it is of.
 std::string log_head(const std::string& sources);
 
-/// Verdicts of a log (score.h, log_of, after log_head) on changes that were found and rightly named, or are equivalent,
-/// with the reason as their note. Throws std::runtime_error with file
-/// and line where it is no log, and where it is of other sources.
+/// Verdicts of a log (log_head, then score.h, log_of) on changes that were found and rightly named, or are equivalent,
+/// with the reason as their note. Throws std::runtime_error with file and line where a line has other fields or an
+/// unknown outcome, and where the log is of other sources.
 std::map<ChangeKey, Verdict> read_found(const std::filesystem::path& log, const std::string& sources);
 
 }  // namespace plumbline::mutation

@@ -33,7 +33,8 @@ void replace_operator(const Source& s, std::size_t i, const Emit& emit) {
   }
 }
 
-// The next greater and smaller integer; of 0 and 1 the other one. Twice a fraction, and nothing for a half-written one.
+// An integer plus 1, and less 1 if it is above 0. Twice a decimal fraction, and 0; for 0.0 it is 1 and -1. Numbers with
+// digit separators or a binary exponent stay.
 void replace_number(const Source& s, std::size_t i, const Emit& emit) {
   const std::string_view text = s.word(i);
   const bool hexadecimal = text.starts_with("0x");
@@ -61,7 +62,8 @@ void replace_number(const Source& s, std::size_t i, const Emit& emit) {
   if (value > 0) emit("constant", i, i, fmt::format("{}{}", value - 1, suffix));
 }
 
-// Another component, the function beside it, the variable of the next number.
+// The other boolean, another component, the opposite function, or a nearby variable whose name ends in another digit
+// (0 to 3).
 void replace_word(const Source& s, std::size_t i, const Emit& emit) {
   static const std::map<std::string_view, std::string_view> kComponents = {
       {"x", "y"}, {"y", "x"}, {"z", "y"}, {"w", "z"}, {"r", "g"},

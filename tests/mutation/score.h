@@ -1,4 +1,4 @@
-// What came of all changes, by what was changed.
+// The outcomes of all changes, counted by what was changed.
 #pragma once
 
 #include <string>
@@ -21,10 +21,10 @@ struct Judged {
 
 /// One line: number, place, the line as it was and as it is.
 std::string description(const Judged& judged);
-/// And what came of it.
+/// One line: the outcome, the scene, and who named what.
 std::string outcome_line(const Judged& judged);
 
-/// Shares of the changes: what must hold.
+/// Counts of changes, from which holds() takes its shares.
 struct Score {
   std::size_t changes = 0, equivalent = 0, found = 0;
   std::size_t by_tables = 0;  ///< of those found, in data that every renderer is given, by the data's tests alone
@@ -32,13 +32,13 @@ struct Score {
   std::size_t in_painter = 0, picture = 0;  ///< of those found in files of the painter; `picture` and nothing else
 };
 Score score_of(const std::vector<Judged>& judged);
-/// 200 changes, of which 12 % may be equivalent; 97 % of the others found; 93 % of those in stages named; of the
-/// painter's all.
+/// Whether there are at least 200 changes, at most 12 % of them equivalent, at least 97 % of the others found, and at
+/// least 93 % of those in stages named rightly; of the painter's that are found, all by the row `picture` alone.
 bool holds(const Score& score);
 
 /// The table by stage, the changes that were not found, those that were named otherwise, and the shares.
 std::string report_of(const std::vector<Judged>& judged);
-/// All of it, a line for each change, fields apart by tabs, with a head.
+/// The log: a line of column names, then a line for each change, fields apart by tabs.
 std::string log_of(const std::vector<Judged>& judged);
 
 }  // namespace plumbline::mutation

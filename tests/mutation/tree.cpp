@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr unsigned kBuildSeconds = 600;  ///< of a compilation; of the first one six times as long
+constexpr unsigned kBuildSeconds = 600;  ///< time limit of configuring; of a compilation six times as long
 
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);

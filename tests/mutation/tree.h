@@ -11,8 +11,8 @@ namespace plumbline::mutation {
 /// Folders below `out`: tree (the sources), build, kept (build, of the sources as they are).
 class Tree {
  public:
-  /// Copies what git knows of `root` and has changed, and builds it; a build that is there is taken up again. Throws
-  /// std::runtime_error where it does not build.
+  /// Copies the files that git lists below `root`, or would add, except golden/, where they differ from the copy, and
+  /// builds them; an earlier build in `out` is continued. Throws std::runtime_error where git or the build fails.
   Tree(const std::filesystem::path& root, const std::filesystem::path& out, unsigned workers);
 
   std::filesystem::path source() const { return out_ / "tree"; }

@@ -1,4 +1,4 @@
-// What plumb's programs say, read.
+// What plumb check and plumb diagnose name, from their JSON, and which scenes' hashes differ.
 #include <algorithm>
 #include <array>
 
@@ -23,7 +23,7 @@ std::size_t order_of(const std::string& stage) {
 bool fails(const Json& row) { return row["outcome"] == "different" || row["outcome"] == "failed"; }
 bool is_picture(const Json& row) { return row["reference"] == "picture"; }
 
-// Of the rows that fail the first stage; `picture` where no other does.
+// The first stage among the rows that fail; `picture` where no other row fails.
 struct First {
   Named named{"none", ""};
   std::size_t at = ~std::size_t{0};

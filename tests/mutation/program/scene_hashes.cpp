@@ -1,7 +1,7 @@
-// What the pipeline hands on of scenes, as hashes: scene_hashes FOLDER, or scene_hashes --random SEED COUNT. A line for
-// each scene, fields apart by tabs: name, about what drawing it takes, the hash of each stage (-: none), and of the
-// picture as it ships. A process of its own draws them; of a scene on which that crashes, throws or never ends the line is
-// name, work, "failed" and why. After three such no more are drawn.
+// Hashes of what the pipeline hands on: scene_hashes FOLDER, or scene_hashes --random SEED COUNT. A line for each
+// scene, fields apart by tabs: name, work (about what drawing takes), the hash of each stage (-: none), and that of all
+// painters' pictures. Another process draws; of a scene on which it crashes, throws or never ends the line is name,
+// work, "failed" and why. After three such no more are drawn.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
