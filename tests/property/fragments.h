@@ -20,7 +20,7 @@ struct Fragment {
   int x, y;
   float z;  ///< in the depth format
   glm::vec4 color;
-  double spread;  ///< how much larger the terms are whose sum the weights are divided by, than that sum
+  double spread;  ///< sum |b_i / w_i| over |sum b_i / w_i|, the weights' divisor: 1, or more off the triangle
 
   bool operator==(const Fragment&) const = default;
 };
@@ -38,7 +38,8 @@ void for_each_covered(const pipeline::WindowTriangle& triangle, Visit visit) {
   }
 }
 
-/// `scale`: scene.h, depth_scale; `anchor`: depth.h, planes_of.
+/// The fragments, by y, then x. `scale`: the largest depth code, 0 for float (scene.h, depth_scale); `anchor`: the
+/// pixel from which planes are evaluated (kernels/depth.h, planes_of).
 inline std::vector<Fragment> fragments(const pipeline::ShadedTriangle& triangle, double scale, glm::ivec2 anchor) {
   const pipeline::BarycentricPlanes planes = pipeline::planes_of(triangle, anchor.x, anchor.y);
   pipeline::DepthSetup depth = pipeline::depth_setup(triangle, {DepthFormat::z32f});

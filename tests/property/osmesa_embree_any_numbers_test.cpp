@@ -1,4 +1,4 @@
-// Scenes of numbers of any size, which no scene file holds: infinities and NaN too.
+// Scenes of finite coordinates of any size, beyond what a scene file may hold: the stages' products overflow.
 #include <cmath>
 
 #include <gtest/gtest.h>

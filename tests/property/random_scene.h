@@ -1,5 +1,6 @@
-// Random scenes for property tests: every format and state, and vertices where pipelines break: on planes of the view
-// volume and on pixel centres, in line, far apart in size, at the eye and behind it.
+// Random scenes of triangles for property tests: every depth format, the colour formats but rgba32f, state without
+// textures, fog, polygon modes and antialiasing, and vertices where pipelines break: on planes of the view volume and
+// on pixel centres, in line, far apart in size, at the eye and behind it.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +14,14 @@
 
 namespace plumbline::test {
 
-/// Anywhere in [least, most): inRange itself stays near the least in its first cases.
+/// Uniform in [least, most). (inRange alone stays near `least` in its first cases.)
 template <class T>
 rc::Gen<T> evenly(T least, T most) {
   return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(least, most));
 }
 
-/// A number of the sort that breaks things, of a size near 1.
+/// A coordinate: of ten, six are multiples of 1/1024 and three multiples of 1/2 in [-4, 4]; one is of any size up to
+/// 2^20.
 inline rc::Gen<float> coordinate() {
   using namespace rc;
   return gen::weightedOneOf<float>(
@@ -29,7 +31,7 @@ inline rc::Gen<float> coordinate() {
                     [](std::pair<int, int> p) { return std::ldexp(static_cast<float>(p.first) / 1000, p.second); })}});
 }
 
-/// Any finite float, of any size.
+/// A finite float of up to ten bits, of any size up to 1000 * 2^117.
 inline rc::Gen<float> any_float() {
   return rc::gen::map(rc::gen::pair(evenly(-1000, 1001), evenly(-140, 118)),
                       [](std::pair<int, int> p) { return std::ldexp(static_cast<float>(p.first), p.second); });
@@ -52,7 +54,8 @@ inline rc::Gen<glm::vec4> color() {
   });
 }
 
-/// Between 1 and `most` triangles over fewer corners; coordinates by `of`.
+/// 1 to `most` triangles, each of any three of the mesh's vertices (at least 3; repeats are allowed). Coordinates by
+/// `of`; normals of unit length; colours in half of the meshes.
 inline Mesh random_mesh(int most, const rc::Gen<float>& of) {
   using namespace rc;
   Mesh mesh;
@@ -72,7 +75,7 @@ E one_of(int count) {
   return static_cast<E>(*evenly(0, count));
 }
 
-/// Sets the scene's dialect, and a projection that it has.
+/// Sets the scene's dialect, and one of the dialect's projections.
 inline void speak(Scene& scene) {
   using namespace rc;
   scene.dialect = *gen::weightedElement<Dialect>(
@@ -94,7 +97,7 @@ inline void speak(Scene& scene) {
   }
 }
 
-/// Sets how far and where to a lamp shines.
+/// Sets a point light's attenuation and, in half of the cases, its cone.
 inline void reach(Light& light) {
   using namespace rc;
   light.attenuation = *gen::elementOf(std::vector<glm::vec3>{{1, 0, 0}, {2, 0, 0}, {0.5f, 0.25f, 0}, {0, 0, 1}});
@@ -103,7 +106,7 @@ inline void reach(Light& light) {
                     *gen::elementOf(std::vector<float>{0, 0.5f, 1, 7, 128})};
 }
 
-/// To be called within a property.
+/// A scene of 1 to 3 draws; coordinates by `of`. To be called within a property.
 inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   using namespace rc;
   Scene scene;

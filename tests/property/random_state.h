@@ -22,7 +22,7 @@ inline BlendTerm random_blend_term() {
   return out;
 }
 
-/// Small numbers, that ops and functions tell apart.
+/// Small reference values and few masks, so that functions and ops come out differently.
 inline StencilFace random_stencil_face() {
   StencilFace out;
   out.func = any_of<CompareFunc>(8);
@@ -35,7 +35,7 @@ inline StencilFace random_stencil_face() {
   return out;
 }
 
-/// Each kind of state now and then.
+/// Sets each kind of state in one draw of four; a stencil test, where the frame has stencil values, in one of two.
 inline void randomize_state(const FrameFormat& frame, Draw& draw) {
   const auto now_and_then = [] { return any_of<int>(4) == 0; };
   const auto share = [] { return static_cast<float>(any_of<int>(17)) / 16; };

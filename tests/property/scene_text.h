@@ -1,4 +1,4 @@
-// The scene file of a scene made in memory, of what random_scene.h sets: floats to their last bit.
+// Scene files of scenes made in memory: all that random_scene.h sets, with floats that read back to the last bit.
 #pragma once
 
 #include <string>
@@ -58,8 +58,8 @@ inline std::string transform(const Transform& t) {
   return fmt::format(R"({{"rotate": {{"degrees": {}, "axis": {}}}}})", by.degrees, vector(by.axis));
 }
 
-/// In the format's limits: coordinates up to 1e6, triangles of three different corners. Where there is none, one of no
-/// area.
+/// The mesh within the format's limits: coordinates are clamped to 1e6, triangles that repeat a vertex are left out.
+/// Where none is left, one triangle of no area stands in.
 inline std::string mesh(const Mesh& m) {
   std::vector<glm::uvec3> triangles;
   for (const glm::uvec3& t : m.triangles) {
