@@ -1,4 +1,4 @@
-// Mesh files, as tests write and read them.
+// Mesh files that a test writes and reads.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace plumbline {
 inline std::vector<MeshPart> load_parts(const std::filesystem::path& file) {
   return load_mesh(file, AssetFolders({file.parent_path()}), kMostTriangles);
 }
-/// Reads a file of one material at most.
+/// Reads a file that must come to one part: of one material at most.
 inline Mesh load_one(const std::filesystem::path& file) {
   std::vector<MeshPart> parts = load_parts(file);
   EXPECT_EQ(parts.size(), 1u);

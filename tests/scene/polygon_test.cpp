@@ -45,7 +45,7 @@ bool is_simple(const std::vector<Point>& corners) {
   return area != 0;
 }
 
-/// In each coordinate plane: the plane onto which a polygon is projected depends on its normal.
+/// The corners in the plane perpendicular to `axis`, which decides onto which plane polygon_fault() projects them.
 std::vector<glm::dvec3> placed(const std::vector<Point>& corners, int axis) {
   std::vector<glm::dvec3> out;
   for (const Point& p : corners) {
