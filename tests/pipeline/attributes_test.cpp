@@ -30,7 +30,7 @@ Color<float> attributes_at(const Triangle& t, double l1, double l2) {
 
 const glm::vec4 kA(1, 0, 0.25f, 1), kB(0, 1, 0.75f, 0.5f), kC(0.5f, 0.125f, 0, 0);
 
-/// Corners on centres, an eighth of the way per pixel.
+/// Corners on pixel centres; l1 and l2 grow by 1/8 per pixel along x and y.
 Triangle triangle(float w0, float w1, float w2) {
   return window_triangle(window_vertex({0.5f, 0.5f, 0}, w0, kA), window_vertex({8.5f, 0.5f, 0}, w1, kB),
                          window_vertex({0.5f, 8.5f, 0}, w2, kC));
@@ -56,7 +56,7 @@ TEST(PipelineAttributes, AffineWhereWIsTheSame) {
   EXPECT_EQ(c.a, 0.375f);
 }
 
-// Legs of 48 pixels and w in 1 to 1.2: q_i and their sum change by 1/48 and less a pixel.
+// Legs of `leg` pixels and w from 1 to 1.2: each q_i and their sum change by at most 1 / leg per pixel.
 Triangle slow_triangle(double leg) {
   const auto side = static_cast<float>(0.5 + leg);
   return window_triangle(window_vertex({0.5f, 0.5f, 0}, 1, kA), window_vertex({side, 0.5f, 0}, 1.1f, kB),

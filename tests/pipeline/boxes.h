@@ -16,6 +16,7 @@ inline constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat:
                                                                    {ColorFormat::rgba32f, DepthFormat::z32f},
                                                                    {ColorFormat::rgba32f, DepthFormat::z24}};
 
+/// The stages that have records in boxes(): all but texture, merge and resolve.
 inline StageSet stages_with_records() {
   return {Stage::matrices, Stage::vertex, Stage::light,      Stage::clip,  Stage::window,
           Stage::coverage, Stage::depth,  Stage::attributes, Stage::shade, Stage::visibility};
@@ -26,7 +27,7 @@ inline Request everything() {
   return request;
 }
 
-/// A closed box, its normals out of its corners, each corner a colour.
+/// A closed box of side 2, each corner with a normal along its diagonal and a colour of its own.
 inline Mesh box() {
   Mesh mesh;
   for (int i = 0; i < 8; ++i) {

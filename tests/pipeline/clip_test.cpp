@@ -19,7 +19,7 @@ struct Cut {
 using Cuts = std::vector<Cut>;
 constexpr std::array<const char*, 6> kNames = {"right", "left", "top", "bottom", "near", "far"};
 
-/// What is left of the triangle; its corners, or none.
+/// The corners of what clip_it() leaves of the triangle; empty: nothing is left.
 template <class Clip>
 Cuts polygon_of(const Corners& p, Clip clip_it, Shading shading = Shading::gouraud) {
   const Vertex<float> vertices[3] = {{{}, p[0], {}}, {{}, p[1], {}}, {{}, p[2], {}}};

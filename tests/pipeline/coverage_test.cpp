@@ -226,7 +226,7 @@ TEST(PipelineCoverage, AClosedStripIsPaintedOnce) {
   std::mt19937 random(4);
   std::uniform_int_distribution<int> jitter(-1, 1);
   for (int i = 0; i < 300; ++i) {
-    // A grid over the frame and beyond, inner corners moved about by half pixels, each cell cut along either diagonal.
+    // A grid over the frame and beyond, its corners moved by up to half a pixel, each cell cut along either diagonal.
     constexpr int kCells = 5, kSide = 768;
     glm::ivec2 p[kCells + 1][kCells + 1];
     for (int y = 0; y <= kCells; ++y) {

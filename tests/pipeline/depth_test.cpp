@@ -56,7 +56,8 @@ long double plane_at(const Triangle& t, int x, int y) {
   return std::clamp(static_cast<long double>(z), 0.0L, 1.0L);
 }
 
-/// Calls visit(x, y) for each pixel that the triangle covers in a frame of that size, looking only near line 0-1.
+/// Calls visit(x, y) for each pixel that the triangle covers in a frame of size x size, at most `reach` columns and a
+/// row's run away from the line through corners 0 and 1.
 template <class Visit>
 void for_each_covered(const Triangle& t, int size, int reach, Visit visit) {
   const Edges edges = edges_of(t);

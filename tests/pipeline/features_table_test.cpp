@@ -1,4 +1,4 @@
-// The table of features in src/pipeline/README.md names every folder of scenes, with the number of scenes that are in it.
+// The table of features in src/pipeline/README.md names every folder of scenes, with the number of its scenes.
 #include <filesystem>
 #include <fstream>
 #include <map>

@@ -56,11 +56,11 @@ struct BruteSetup {
   AttributeSetup color;
 };
 
-/// Every triangle over every pixel, in order, pixel by pixel.
+/// The frame without bins or bounding boxes: at each pixel every triangle, in draw order.
 Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& first,
                   const std::vector<Draw>& draws, const FrameFormat& f) {
   const Formats formats = formats_of(f);
-  // Only what depth.h asks for knows of tiles: planes are anchored at the lower left pixel of the pixel's own.
+  // The one rule of tiles (stages.h, kTile): planes are anchored at the lower left pixel of the pixel's tile.
   std::map<std::pair<int, int>, std::vector<BruteSetup>> setups_of_tile;
   for (int y = 0; y < f.height; y += 64) {
     for (int x = 0; x < f.width; x += 64) {

@@ -12,7 +12,7 @@ namespace plumbline::test {
 
 struct LightCase {
   std::string name;
-  std::function<void(Light&, LightModel&, Draw&)> change;  ///< of a dark material under a white light along +z
+  std::function<void(Light&, LightModel&, Draw&)> change;  ///< from a black material under a white light from +z
   glm::dvec3 p_eye, n_eye;
   double red;
   double alpha = 1;

@@ -8,8 +8,8 @@
 namespace plumbline::pipeline {
 namespace {
 
-/// A square that fills a frame of floats and faces away from the eye, its normals with it; white lights along +z and
-/// -z.
+/// A square that fills a frame of floats and faces away from the eye, its normals with it; a white light from +z, and a
+/// grey one without a specular colour from -z.
 Scene backs() {
   Scene scene;
   scene.frame.width = scene.frame.height = 4;

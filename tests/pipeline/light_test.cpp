@@ -91,7 +91,8 @@ TEST(PipelineMath, PowerOfSubnormals) {
   EXPECT_NEAR(power<float>(std::numeric_limits<float>::denorm_min(), 1e-3f), std::exp2(-0.149), 1e-6);
 }
 
-/// One vertex at the origin of eye space's z = -2, its normal towards the eye, one white light behind the eye.
+/// One vertex at (0, 0, -2) in eye space, the world's origin, its normal towards the eye; one directional light from
+/// +z. All colours of light and material are black until a test sets them.
 class PipelineLight : public testing::Test {
  protected:
   PipelineLight() {
@@ -106,7 +107,7 @@ class PipelineLight : public testing::Test {
     light(scene_, draw_, scene_.meshes[draw_.mesh], light_sources(scene_), std::span(&vertex_, 1), out);
     return out.at(0).color();
   }
-  /// The normal and the light at that angle, towards +x.
+  /// Leans the normal from +z towards +x by that angle.
   void tilt(double degrees) { vertex_.n_eye = {std::sin(degrees * M_PI / 180), 0, std::cos(degrees * M_PI / 180)}; }
 
   Scene scene_;

@@ -10,7 +10,7 @@ namespace plumbline::pipeline {
 namespace {
 
 /// A square that fills a frame of floats, eye space its model space, its normals leaning 53 degrees to either side; one
-/// white light along +z.
+/// white light from +z.
 Scene leaning() {
   Scene scene;
   scene.frame.width = scene.frame.height = 5;

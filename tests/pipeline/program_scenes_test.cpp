@@ -44,7 +44,7 @@ struct PassThrough {
   }
 };
 
-/// Under which a whole scene is drawn, if it is one.
+/// The state that all draws of the scene share; none: they differ, or a program cannot draw the scene.
 std::optional<ProgramState> common_state(const Scene& scene) {
   // Programs have triangles, one colour and no blending.
   if (scene.draws.empty() || !carried(scene).empty() || !colors_replace(scene) || draws(scene, Topology::lines) ||

@@ -1,4 +1,4 @@
-// What the tests of programmable stages share.
+// Comparison of frames, and formats, for the tests of programmable stages.
 #pragma once
 
 #include <cstring>
@@ -7,6 +7,7 @@
 
 namespace plumbline::testing_words {
 
+/// The number of values whose bits differ; of planes of different sizes all of both.
 template <class T>
 std::size_t bits_apart(const Plane<T>& a, const Plane<T>& b) {
   if (a.width() != b.width() || a.height() != b.height()) return a.size() + b.size();

@@ -109,7 +109,7 @@ TEST(StencilTest, ComparesTheReferenceWithWhatIsHeldUnderTheMask) {
   }
 }
 
-// A quad over the whole frame, at window z.
+// Triangles over the whole frame, a draw for each window z; stencil values are cleared to 9.
 Scene quads(std::initializer_list<float> depths) {
   Scene scene;
   scene.frame.width = scene.frame.height = 4;

@@ -1,4 +1,4 @@
-// Stages 5 to 11 of the definition, from window triangles on.
+// Stages 5 to 11 of the definition, run on given window triangles.
 #pragma once
 
 #include <span>
@@ -8,7 +8,8 @@
 
 namespace plumbline::test {
 
-/// The frame that they make; draw d has triangles [first[d], first[d + 1]), numbered in that order.
+/// The frame of the triangles. Draw d has triangles [first[d], first[d + 1]), so that first.size() is draws.size() + 1;
+/// a triangle's index is its primitive's number. Without shading inputs: no scene, lights or textures.
 inline pipeline::Frame frame_of(std::span<const pipeline::ShadedTriangle> triangles,
                                 std::span<const std::uint32_t> first, std::span<const Draw> draws,
                                 const FrameFormat& format) {

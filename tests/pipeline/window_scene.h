@@ -1,4 +1,4 @@
-// Scenes whose coordinates are the window's: x, y in pixels, z the window's.
+// Scenes given in window coordinates: x, y [pixels], z [0, 1].
 #pragma once
 
 #include <vector>
@@ -11,7 +11,8 @@ struct ThreeCorners {
   glm::vec3 a, b, c;
 };
 
-/// White triangles, unlit, in one draw, on black, through an orthographic projection: p_win is p_model.
+/// White triangles, unlit, in one draw, on black, through an orthographic projection. The corners are p_win; p_model is
+/// (x, y, -z).
 inline Scene window_scene(int width, int height, const std::vector<ThreeCorners>& triangles) {
   Scene scene;
   scene.name = "window";
