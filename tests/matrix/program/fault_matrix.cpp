@@ -66,25 +66,34 @@ struct Pair {
   SceneList scenes;  // that each affects alone
 };
 
-// Random pairs of faults in two stages, which replace different functions and affect a common scene; drawn by a fixed
-// seed until there are extent.pairs of them.
+// None: both faults are in one stage, replace a common function, or affect no common scene.
+std::optional<Pair> pair_of(const faults::Fault& one, const faults::Fault& other, const SceneList& on_one,
+                            const SceneList& on_other) {
+  const faults::Fault &a = other.stage < one.stage ? other : one, &b = other.stage < one.stage ? one : other;
+  pipeline::Stages a_then_b = pipeline::production_stages(), b_then_a = a_then_b;
+  a.apply(a_then_b);
+  b.apply(a_then_b);
+  b.apply(b_then_a);
+  a.apply(b_then_a);
+  Pair pair{{fmt::format("{} + {}", a.name, b.name), a_then_b, {a.stage, b.stage}}, {}};
+  std::ranges::set_intersection(on_one, on_other, std::back_inserter(pair.scenes));
+  if (a.stage == b.stage || a_then_b != b_then_a || pair.scenes.empty()) return std::nullopt;
+  return pair;
+}
+
+// Random pairs of faults (pair_of), drawn by a fixed seed: extent.pairs of them, or as many as there are.
 std::vector<Pair> draw_pairs(std::span<const faults::Fault> all, std::span<const SceneList> on, const Extent& extent) {
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < all.size() && most < extent.pairs; ++i) {
+    for (std::size_t k = 0; k < i; ++k) most += pair_of(all[i], all[k], on[i], on[k]) ? 1 : 0;
+  }
   std::mt19937 random(1);
   std::vector<Pair> out;
-  while (out.size() < extent.pairs) {
-    std::size_t i = random() % all.size(), k = random() % all.size();
-    if (all[k].stage < all[i].stage) std::swap(i, k);
-    const faults::Fault &a = all[i], &b = all[k];
-    pipeline::Stages a_then_b = pipeline::production_stages(), b_then_a = a_then_b;
-    a.apply(a_then_b);
-    b.apply(a_then_b);
-    b.apply(b_then_a);
-    a.apply(b_then_a);
-    Pair pair{{fmt::format("{} + {}", a.name, b.name), a_then_b, {a.stage, b.stage}}, {}};
-    std::ranges::set_intersection(on[i], on[k], std::back_inserter(pair.scenes));
-    const bool drawn = std::ranges::any_of(out, [&](const Pair& p) { return p.subject.name == pair.subject.name; });
-    if (a.stage == b.stage || a_then_b != b_then_a || pair.scenes.empty() || drawn) continue;
-    out.push_back(std::move(pair));
+  while (out.size() < std::min(most, extent.pairs)) {
+    const std::size_t i = random() % all.size(), k = random() % all.size();
+    std::optional<Pair> pair = pair_of(all[i], all[k], on[i], on[k]);
+    const auto has_its_name = [&](const Pair& p) { return p.subject.name == pair->subject.name; };
+    if (pair && std::ranges::none_of(out, has_its_name)) out.push_back(std::move(*pair));
   }
   return out;
 }
