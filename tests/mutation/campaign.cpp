@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "mutation/fields.h"
 #include "mutation/kept.h"
 #include "mutation/tree.h"
 
@@ -66,11 +67,8 @@ std::string reason_of(const Judged& j, const std::vector<Equivalent>& equivalent
 }  // namespace
 
 std::vector<Judged> changes_of_seed(const fs::path& root, const std::vector<FileRule>& rules, const std::string& seed) {
-  std::size_t used = 0;
-  const std::uint64_t value = std::stoull(seed, &used, 16);
-  if (used != seed.size()) throw std::runtime_error(fmt::format("{}: expected hexadecimal digits", seed));
   const std::map<std::string, std::string> sources = sources_of(root, rules);
-  Draw draw(sources, rules, value);
+  Draw draw(sources, rules, number_of(seed, 16, "the seed"));
   std::vector<Judged> out;
   for (Judged next; draw.next(next.change);) {
     next.seed = seed;

@@ -80,7 +80,7 @@ SceneHashes Judge::hashes(const fs::path& programs, const std::vector<std::strin
     std::string name, work, hash;
     if (!std::getline(fields, name, '\t') || !std::getline(fields, work, '\t')) continue;
     SceneHashes::Line& read = out.of[name];
-    read.work = std::stoull(work);
+    read.work = number_of(work, 10, file.string());
     while (std::getline(fields, hash, '\t')) read.hashes.push_back(hash);
   }
   return out;

@@ -67,7 +67,7 @@ std::map<ChangeKey, Verdict> read_found(const fs::path& log, const std::string& 
     if (f.size() != kFields) {
       throw std::runtime_error(fmt::format("{}: expected {} fields, found {}", place, kFields, f.size()));
     }
-    Verdict v{outcome_of(f[5], place), std::stoul(f[6]), f[7], {}, {f[9], f[10]}, {f[11], f[12]}, f[15]};
+    Verdict v{outcome_of(f[5], place), number_of(f[6], 10, place), f[7], {}, {f[9], f[10]}, {f[11], f[12]}, f[15]};
     if (!f[8].empty()) v.expected = fields_of(f[8], ',');
     const bool is_settled = v.found() ? v.named_by_check() && v.named_by_diagnose() : v.outcome == Outcome::equivalent;
     if (is_settled) out[{f[0], f[1], f[2], f[13], f[14]}] = std::move(v);

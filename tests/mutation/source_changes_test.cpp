@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "mutation/choose.h"
+#include "mutation/fields.h"
 #include "mutation/judge.h"
 #include "mutation/kept.h"
 #include "mutation/run.h"
@@ -164,8 +165,19 @@ TEST(SourceChanges, WhatWasFoundIsTakenOverFromALogOfTheSameSources) {
   EXPECT_THROW(read_found(log, "1235"), std::runtime_error) << "of other sources";
   std::ofstream(log, std::ios::app) << "a line of less\n";
   EXPECT_THROW(read_found(log, "1234"), std::runtime_error);
+  std::string no_number = log_of({found});
+  no_number.replace(no_number.find("\t3\t"), 3, "\tx\t");
+  std::ofstream(log) << log_head("1234") << no_number;
+  EXPECT_THROW(read_found(log, "1234"), std::runtime_error);
   std::filesystem::remove(log);
   EXPECT_EQ(sources_hash(kRoot), sources_hash(kRoot));
+}
+
+TEST(SourceChanges, NumbersAreWhole) {
+  EXPECT_EQ(number_of("1f", 16, "p"), 31u);
+  for (const char* bad : {"", "1g", "-1", "123456789012345678901"}) {
+    EXPECT_THROW(number_of(bad, 16, "p"), std::runtime_error) << bad;
+  }
 }
 
 TEST(SourceChanges, AScenesFirstStageIsNamed) {
