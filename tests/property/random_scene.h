@@ -1,6 +1,6 @@
-// Random scenes of triangles for property tests: every depth format, the colour formats but rgba32f, state without
-// textures, fog, polygon modes and antialiasing, and vertices where pipelines break: on planes of the view volume and
-// on pixel centres, in line, far apart in size, at the eye and behind it.
+// Random scenes of triangles for property tests: all formats, state without textures, fog, polygon modes and
+// antialiasing, and vertices where pipelines break: on planes of the view volume and on pixel centres, in line, far
+// apart in size, at the eye and behind it.
 #pragma once
 
 #include <algorithm>
@@ -113,7 +113,7 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   scene.name = "random";
   scene.frame.width = *evenly(1, 80);
   scene.frame.height = *evenly(1, 80);
-  scene.frame.color = one_of<ColorFormat>(3);
+  scene.frame.color = one_of<ColorFormat>(4);
   scene.frame.depth = one_of<DepthFormat>(4);
   scene.frame.clear_color = *color();
   scene.frame.clear_depth = *gen::weightedElement<double>({{6, 1.0}, {1, 0.0}, {1, 0.5}, {1, 0.7}});

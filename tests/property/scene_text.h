@@ -69,7 +69,8 @@ inline std::string mesh(const Mesh& m) {
   for (glm::vec3& p : positions) p = glm::clamp(p, -1e6f, 1e6f);
   if (triangles.empty()) {
     triangles.emplace_back(0, 1, 2);
-    std::fill_n(positions.begin(), 3, m.positions.at(m.triangles.at(0).x));
+    const glm::vec3 corner = positions.at(m.triangles.at(0).x);
+    std::fill_n(positions.begin(), 3, corner);
   }
   std::string out = fmt::format(R"("positions": {}, "indices": {}, "normals": {})", vectors(positions),
                                 vectors(triangles), vectors(m.normals));

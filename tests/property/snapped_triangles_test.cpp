@@ -125,7 +125,7 @@ Scene moved_grid() {
   constexpr int kCells = 6, kCell = 12;  // pixels
   Scene scene;
   scene.frame.width = scene.frame.height = 64;
-  scene.frame.color = static_cast<ColorFormat>(*test::evenly(0, 3));
+  scene.frame.color = static_cast<ColorFormat>(*test::evenly(0, 4));
   scene.frame.depth = static_cast<DepthFormat>(*test::evenly(0, 4));
   scene.projection = Orthographic{0, 64, 0, 64, 1, 10};
   Mesh mesh = make_grid(kCells, kCells);
