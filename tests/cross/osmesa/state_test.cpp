@@ -6,6 +6,7 @@
 
 #include "reference/osmesa/osmesa.h"
 #include "tests/cross/osmesa_scenes.h"
+#include "tests/painter/same_captures.h"
 
 namespace plumbline::test {
 namespace {
@@ -14,29 +15,6 @@ Request everything() {
   Request request;
   request.records = StageSet::all();
   return request;
-}
-
-void expect_same(const Capture& a, const Capture& b) {
-  EXPECT_EQ(a.planes.count.values(), b.planes.count.values());
-  EXPECT_EQ(a.planes.id_sum.values(), b.planes.id_sum.values());
-  EXPECT_EQ(a.planes.id.values(), b.planes.id.values());
-  EXPECT_EQ(a.planes.shaded.values(), b.planes.shaded.values());
-  EXPECT_EQ(a.planes.color.values(), b.planes.color.values());
-  EXPECT_EQ(a.planes.depth.values(), b.planes.depth.values());
-  const auto same = [](const auto& u, const auto& v, auto equal) {
-    return std::equal(u.begin(), u.end(), v.begin(), v.end(), equal);
-  };
-  EXPECT_TRUE(same(a.records.matrices, b.records.matrices, [](const auto& p, const auto& q) {
-    return p.model_view == q.model_view && p.projection == q.projection && p.win_scale == q.win_scale;
-  }));
-  EXPECT_TRUE(same(a.records.vertices, b.records.vertices,
-                   [](const auto& p, const auto& q) { return p.p_clip == q.p_clip && p.n_eye == q.n_eye; }));
-  EXPECT_TRUE(same(a.records.lit, b.records.lit, [](const auto& p, const auto& q) { return p.color == q.color; }));
-  EXPECT_TRUE(same(a.records.polygons.vertices, b.records.polygons.vertices,
-                   [](const auto& p, const auto& q) { return p.p_clip == q.p_clip && p.color == q.color; }));
-  EXPECT_TRUE(same(a.records.triangles, b.records.triangles, [](const auto& p, const auto& q) {
-    return p.v[0].p_win == q.v[0].p_win && p.v[1].color == q.v[1].color && p.primitive == q.primitive;
-  }));
 }
 
 Scene plain_scene() {
@@ -76,9 +54,9 @@ TEST(OsmesaState, NothingOfASceneIsLeftForTheNext) {
   for (const Scene& scene : {plain_scene(), lit_scene()}) {
     const Capture fresh = make_opengl()->capture(scene, everything());
     const auto used = make_opengl();
-    expect_same(used->capture(scene, everything()), fresh);
+    expect_same_captures(used->capture(scene, everything()), fresh);
     used->capture(busy_scene(), everything());
-    expect_same(used->capture(scene, everything()), fresh);
+    expect_same_captures(used->capture(scene, everything()), fresh);
   }
 }
 
@@ -86,7 +64,7 @@ TEST(OsmesaState, TwoRenderersTakeTurns) {
   const auto a = make_opengl(), b = make_opengl();
   const Capture first = a->capture(lit_scene(), everything());
   b->capture(busy_scene(), everything());
-  expect_same(a->capture(lit_scene(), everything()), first);
+  expect_same_captures(a->capture(lit_scene(), everything()), first);
 }
 
 TEST(OsmesaState, AFailureLeavesTheRendererUsable) {
@@ -115,7 +93,7 @@ TEST(OsmesaState, AFailureLeavesTheRendererUsable) {
   poor.memory_budget = plane_bytes(plain_scene()) - 1;
   EXPECT_THROW(osmesa->capture(plain_scene(), poor), OverBudget);
 
-  expect_same(osmesa->capture(plain_scene(), everything()), before);
+  expect_same_captures(osmesa->capture(plain_scene(), everything()), before);
 }
 
 TEST(OsmesaState, TellsWhatItShows) {
