@@ -16,7 +16,8 @@ namespace plumbline::matrix {
 
 namespace {
 
-// Exact on one scene. Its captures do not depend on the candidate, so that each pass is drawn once and kept.
+// Exact on one scene. Its captures do not depend on the candidate, so that each pass is drawn once and kept; but those
+// of some pixels or primitives alone are drawn every time.
 class ExactOnce : public Renderer {
  public:
   RendererInfo info() const override { return info_; }
@@ -25,6 +26,7 @@ class ExactOnce : public Renderer {
     for (std::size_t i = 0; i < kStageNames.size(); ++i) {
       stages |= request.records.has(static_cast<Stage>(i)) ? 1u << i : 0u;
     }
+    if (!request.pixels.empty() || !request.primitives.empty()) return exact_->capture(scene, request);
     const FrameFormat& f = scene.frame;
     const Key key{f.antialias.kind, f.pass.sample.value_or(-1), f.pass.shift.x, f.pass.shift.y, request.legal, stages};
     const auto known = captures_.find(key);
