@@ -10,11 +10,10 @@
 
 namespace plumbline::testing_words {
 
-inline constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat::rgba8, DepthFormat::z24},
-                                                                   {ColorFormat::rgba8, DepthFormat::z16},
-                                                                   {ColorFormat::rgba12, DepthFormat::z8},
-                                                                   {ColorFormat::rgba32f, DepthFormat::z32f},
-                                                                   {ColorFormat::rgba32f, DepthFormat::z24}};
+inline constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {
+    {ColorFormat::rgba8, DepthFormat::z24},    {ColorFormat::rgba8, DepthFormat::z16},
+    {ColorFormat::rgba12, DepthFormat::z8},    {ColorFormat::rgba16, DepthFormat::z24},
+    {ColorFormat::rgba32f, DepthFormat::z32f}, {ColorFormat::rgba32f, DepthFormat::z24}};
 
 /// The stages that have records in boxes(): all but texture, merge and resolve.
 inline StageSet stages_with_records() {

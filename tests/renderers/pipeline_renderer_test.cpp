@@ -80,8 +80,9 @@ TEST(PipelineRenderer, PlanesAreThoseOfTheFrameThatShips) {
       for (int x = 0; x < 90; ++x) {
         if (color == ColorFormat::rgba8) {
           ASSERT_EQ(c.planes.color(x, y), glm::vec4(frame.color_rgba8(x, y)) / 255.0f);
-        } else if (color == ColorFormat::rgba12) {
-          ASSERT_EQ(c.planes.color(x, y), glm::vec4(frame.color_rgba16(x, y)) / 4095.0f);
+        } else if (color != ColorFormat::rgba32f) {
+          const auto largest = static_cast<float>(color_scale(color));
+          ASSERT_EQ(c.planes.color(x, y), glm::vec4(frame.color_rgba16(x, y)) / largest);
         } else {
           ASSERT_EQ(c.planes.color(x, y), frame.color_rgba32f(x, y));
         }

@@ -69,7 +69,8 @@ TEST(FrameColor, HoldsThePipelines) {
   std::mt19937 random(5);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   const auto unit = [&] { return static_cast<float>(below(2) == 0 ? below(1 << 24) * 0x1p-24 : below(256) / 255.0); };
-  for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba32f}) {
+  for (const ColorFormat format :
+       {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba16, ColorFormat::rgba32f}) {
     const auto scale = static_cast<float>(color_scale(format));
     int wide = 0, all = 0;
     for (int round = 0; round < 20000; ++round) {

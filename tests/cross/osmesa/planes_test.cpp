@@ -113,7 +113,8 @@ TEST(OsmesaPlanes, DepthIsInTheFramesFormat) {
                              {DepthFormat::z8, 4194304 / 16777215.0, 2063597 / 16777215.0},  // of 24 bits: GL has none
                              {DepthFormat::z32f, 0.25, static_cast<double>(0.123f)}};
   for (const DepthCase& expected : cases) {
-    for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba32f}) {
+    for (const ColorFormat color :
+         {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba16, ColorFormat::rgba32f}) {
       Scene scene = pixel_scene(5, 3);
       scene.frame.depth = expected.format;
       scene.frame.color = color;
