@@ -75,10 +75,12 @@ class Caster {
  public:
   explicit Caster(const Scene& scene)
       : scene_(scene), world_(world_of(scene)), hierarchy_(world_.triangles), view_(scene) {
-    nearest_alone_ = std::all_of(scene.draws.begin(), scene.draws.end(), [](const Draw& draw) {
-      const bool by_distance = draw.depth_func == DepthFunc::less || draw.depth_func == DepthFunc::less_equal;
-      return by_distance && draw.merge.depth_mask && draw.depth_range == DepthRange{};
-    });
+    const bool depths_grow = scene.dialect == Dialect::gl || scene.dialect == Dialect::gzrender;  // with the distance
+    nearest_alone_ = depths_grow && std::all_of(scene.draws.begin(), scene.draws.end(), [](const Draw& draw) {
+                       const bool by_distance =
+                           draw.depth_func == DepthFunc::less || draw.depth_func == DepthFunc::less_equal;
+                       return by_distance && draw.merge.depth_mask && draw.depth_range == DepthRange{};
+                     });
   }
 
   Answer at(int x, int y) {
@@ -108,8 +110,7 @@ class Caster {
   void find_hits(const Ray& ray, int x, int y) {
     hits_.clear();
     double nearest = 2;  // window z
-    // By the depth that is compared. Assumes that depth never falls as the distance grows: false in games101 and
-    // tinyrenderer.
+    // By the depth that is compared, which never falls as the distance grows (nearest_alone_).
     const auto too_far = [&](double along) {
       return along > view_.far() || (nearest_alone_ && depth_of({}, std::max(along, view_.near())) > nearest);
     };
