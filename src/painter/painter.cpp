@@ -122,7 +122,7 @@ struct Painter::Memory {
   void run_tiles(Frame& to);
 
   const int threads;
-  const SimdTarget& target;
+  const SimdTarget target;
   tbb::task_arena arena;
   std::vector<std::unique_ptr<TileMemory>> tiles;
 

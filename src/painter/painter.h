@@ -33,7 +33,7 @@ std::span<const SimdTarget> simd_targets();
 /// Threads and memory that draw scenes, one call of draw() at a time.
 class Painter {
  public:
-  /// `threads`: clamped to [1, 256]. `target` must outlive the painter.
+  /// `threads`: clamped to [1, 256].
   explicit Painter(int threads = 1, const SimdTarget& target = simd_targets().back());
   ~Painter();
 
