@@ -107,16 +107,16 @@ bool TestedFrame::test(const Fragment& f) {
   const Draw& draw = f.draw;
   if (draw.alpha_test && !alpha_passes(*draw.alpha_test, color_, f.alpha)) return false;
   const double incoming = in_format(format_, f.depth);  // equal codes are equal numbers
-  const bool nearer = passes(draw.depth_func, incoming, depth_(f.x, f.y));
+  const bool passes_depth = passes(draw.depth_func, incoming, depth_(f.x, f.y));
   if (draw.stencil) {
     const StencilFace& face = f.front ? draw.stencil->front : draw.stencil->back;
     std::uint8_t& held = stencil_(f.x, f.y);
     const bool passed = stencil_passes(face, held);
-    held = stencil_value(face, !passed ? face.fail : nearer ? face.pass : face.depth_fail, held);
+    held = stencil_value(face, !passed ? face.fail : passes_depth ? face.pass : face.depth_fail, held);
     if (!passed) return false;
   }
-  if (nearer) store(f);
-  return nearer;
+  if (passes_depth) store(f);
+  return passes_depth;
 }
 
 void TestedFrame::store(const Fragment& f) {

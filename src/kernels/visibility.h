@@ -57,13 +57,13 @@ Int<R> stencil_value(StencilOp op, std::uint8_t reference, Int<R> held) {
 }
 
 /// Mask of the fragments `alive` that pass the stencil test, whatever the depth test says. Of every fragment alive, the
-/// stored value at `at` (one per lane) changes by the face's op. `nearer`: the fragments that pass the depth test.
+/// stored value at `at` (one per lane) changes by the face's op. `passes_depth`: fragments that pass the depth test.
 template <class R>
-Mask<R> stencil_test(const StencilFace& face, Mask<R> alive, Mask<R> nearer, std::uint8_t* at) {
+Mask<R> stencil_test(const StencilFace& face, Mask<R> alive, Mask<R> passes_depth, std::uint8_t* at) {
   const Int<R> held = Lanes<R>::load(at), write(face.write_mask), kept(255 & ~face.write_mask);
   const Mask<R> passes = stencil_passes<R>(face, held);
   const auto value = [&](StencilOp op) { return stencil_value<R>(op, face.reference, held); };
-  const Int<R> made = select(passes, select(nearer, value(face.pass), value(face.depth_fail)), value(face.fail));
+  const Int<R> made = select(passes, select(passes_depth, value(face.pass), value(face.depth_fail)), value(face.fail));
   store(alive, (held & kept) | (made & write), at);
   return alive & passes;
 }

@@ -90,8 +90,8 @@ void paint_fragments(const Draw& draw, const FragmentSetup& s, const std::option
   }
   const R z = depth<R>(s.depth_plane, from_anchor<R>(s.anchor, p));
   const auto stored = tile.at(place);
-  const Mask<R> nearer = covered & compares<R>(draw.depth_func, z, Lanes<R>::load(stored.depth));
-  if (!any(nearer) && !draw.stencil) return;
+  const Mask<R> passes_depth = covered & compares<R>(draw.depth_func, z, Lanes<R>::load(stored.depth));
+  if (!any(passes_depth) && !draw.stencil) return;
   const bool needs_color = draw.alpha_test || glm::any(draw.merge.color_mask);
   Color<R> shaded{};
   if (needs_color && surface) {
@@ -99,11 +99,11 @@ void paint_fragments(const Draw& draw, const FragmentSetup& s, const std::option
   } else if (needs_color) {
     shaded = mean<R>(s.attributes, weights<R>(s.perspective, from_anchor<R>(s.anchor, p)));
   }
-  Mask<R> kept = draw.stencil ? covered : nearer;
+  Mask<R> kept = draw.stencil ? covered : passes_depth;
   if (draw.alpha_test) kept = kept & alpha_passes<R>(*draw.alpha_test, shaded.a, color_scale);
   if (draw.stencil) {
     const StencilFace& face = s.front ? draw.stencil->front : draw.stencil->back;
-    kept = nearer & stencil_test<R>(face, kept, nearer, stored.stencil);
+    kept = passes_depth & stencil_test<R>(face, kept, passes_depth, stored.stencil);
   }
   write<R>(draw.merge, kept, z, shaded, color_scale, stored);
 }

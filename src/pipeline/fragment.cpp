@@ -42,13 +42,13 @@ FilteredTexel<float> filtered(const Stages& stages, const TextureSetup& texture,
   return stages.texture(texture, {texcoords.r, texcoords.g}, gradients<float>(setup.gradients, at, q));
 }
 
-bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool nearer, const Shaded& shaded,
+bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool passes_depth, const Shaded& shaded,
                   float color_scale, std::uint8_t* held) {
-  bool alive = !shaded.discarded && (nearer || draw.stencil);
+  bool alive = !shaded.discarded && (passes_depth || draw.stencil);
   if (draw.alpha_test) alive = alive && stages.alpha_passes(*draw.alpha_test, shaded.color.a, color_scale);
   if (!draw.stencil) return alive;
   const StencilFace& face = front ? draw.stencil->front : draw.stencil->back;
-  return stages.stencil_test(face, alive, nearer, held) && nearer;
+  return stages.stencil_test(face, alive, passes_depth, held) && passes_depth;
 }
 
 void write_fragment(const Stages& stages, const Merge& state, float z, const Color<float>& color, float color_scale,

@@ -25,9 +25,9 @@ FilteredTexel<float> filtered(const Stages& stages, const TextureSetup& texture,
                               const Color<float>& texcoords, const Pixels<float>& pixel);
 
 /// Stage 10: whether the fragment is not discarded and passes alpha, stencil and depth test, in this order (OpenGL 2.1
-/// spec, chapter 4.1). `nearer`: whether it passes the depth test. `held`: the pixel's stencil value, which changes
-/// where the draw has a stencil test; else not read, it may be null.
-bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool nearer, const Shaded& shaded,
+/// spec, chapter 4.1). `passes_depth`: the depth test's answer. `held`: the pixel's stencil value, which changes where
+/// the draw has a stencil test; else not read, it may be null.
+bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool passes_depth, const Shaded& shaded,
                   float color_scale, std::uint8_t* held);
 
 /// Stage 11 of a fragment that is drawn: colour by the blend equation, the logic op or as it is, and depth, as far as

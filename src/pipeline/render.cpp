@@ -77,8 +77,9 @@ void draw_primitives(const PreparedDraw& d, const FrameFormat& format, const Sta
 
         // 6. Depth: the plane of window z.
         const float z = stages.depth(setup, centre);
-        const bool nearer = stages.depth_passes(draw.depth_func, z, *to.depth);
-        if (!nearer && !draw.stencil && !records.keeps_fragments()) continue;  // changes neither frame nor records
+        const bool passes_depth = stages.depth_passes(draw.depth_func, z, *to.depth);
+        if (!passes_depth && !draw.stencil && !records.keeps_fragments())
+          continue;  // changes neither frame nor records
 
         // 7. Attributes: perspective-correct.
         SurfaceAttributes<float> attributes = interpolated(stages, d.surface, setup, centre);
@@ -92,7 +93,8 @@ void draw_primitives(const PreparedDraw& d, const FrameFormat& format, const Sta
         const Shaded shaded = stages.shade(d.surface, triangle.front, attributes);
 
         // 10. Visibility: alpha, stencil and depth test.
-        const bool drawn = passes_tests(stages, draw, triangle.front, nearer, shaded, formats.color_scale, to.stencil);
+        const bool drawn =
+            passes_tests(stages, draw, triangle.front, passes_depth, shaded, formats.color_scale, to.stencil);
         records.fragment({pixel, z, &attributes, shaded.color, drawn});
 
         // 11. Merge: blending, logic op, masks.

@@ -122,7 +122,7 @@ struct Stages {
   // 10 visibility; color_scale: the largest colour code, 0 for float
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
   bool (*alpha_passes)(const AlphaTest&, float alpha, float color_scale);
-  bool (*stencil_test)(const StencilFace&, bool alive, bool nearer, std::uint8_t* held);
+  bool (*stencil_test)(const StencilFace&, bool alive, bool passes_depth, std::uint8_t* held);
   // 11 merge, in the frame's format: codes, or floats
   Merge (*merge_state)(const Merge& of_draw);
   Color<float> (*merge)(const Color<float>&, float color_scale);

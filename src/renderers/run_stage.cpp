@@ -185,8 +185,8 @@ class OneStage {
   bool is_drawn(std::size_t i, const Draw& draw, const WindowTriangle& triangle, const Fragment& f,
                 const FramePixel& at) const {
     const auto passes = [&](const Draw& by) {
-      const bool nearer = stages_.depth_passes(by.depth_func, f.z, *at.depth);
-      return passes_tests(stages_, by, triangle.front, nearer, {f.shaded}, formats_of(scene_.frame).color_scale,
+      const bool passes_depth = stages_.depth_passes(by.depth_func, f.z, *at.depth);
+      return passes_tests(stages_, by, triangle.front, passes_depth, {f.shaded}, formats_of(scene_.frame).color_scale,
                           at.stencil);
     };
     if (stage_ == Stage::visibility) return passes(draw);

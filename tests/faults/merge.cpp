@@ -45,10 +45,10 @@ bool no_alpha_test(const AlphaTest&, float, float) { return true; }
 
 // The stencil test under a face that says something else.
 template <auto change>
-bool stencil_under(const StencilFace& face, bool alive, bool nearer, std::uint8_t* at) {
+bool stencil_under(const StencilFace& face, bool alive, bool passes_depth, std::uint8_t* at) {
   StencilFace wrong = face;
   change(wrong);
-  return pipeline::stencil_test<float>(wrong, alive, nearer, at);
+  return pipeline::stencil_test<float>(wrong, alive, passes_depth, at);
 }
 
 constexpr auto kOpsSwapped = [](StencilFace& face) { std::swap(face.pass, face.depth_fail); };
