@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "capture/by_conventions.h"
-#include "cli/likely/known_mistakes.h"
+#include "cli/likely/known_faults.h"
 #include "report/text/conformance.h"
 #include "scene/draw_index.h"
 
@@ -21,15 +21,15 @@ namespace plumbline::cli {
 
 namespace {
 
-using Mistakes = std::vector<const Mistake*>;
+using KnownFaults = std::vector<const KnownFault*>;
 
-// Mistakes made together, and the pixels in which their frame still differs from the given one.
+// Faults made together, and the pixels in which their frame still differs from the given one.
 struct Lookalike {
-  Mistakes mistakes;
+  KnownFaults faults;
   Apart apart;
 };
 
-// Draws the scene with mistakes, and counts the pixels that differ. Where the frame's sides cut polygons, the scene is
+// Draws the scene with faults, and counts the pixels that differ. Where the frame's sides cut polygons, the scene is
 // drawn with these cuts and with a guard band (CutAt); the nearer frame counts.
 class Trial {
  public:
@@ -40,10 +40,10 @@ class Trial {
       right_.emplace(CutAt::guard_band, draw_with({}, scene, conventions_, CutAt::guard_band));
   }
   Apart apart(const ColorAndDepth& frame) const { return apart_.from(frame); }
-  Lookalike made(Mistakes mistakes) const {
-    Lookalike out{std::move(mistakes), {}};
+  Lookalike made(KnownFaults faults) const {
+    Lookalike out{std::move(faults), {}};
     for (const auto& [cut_at, right] : right_) {
-      const Apart left = apart_.from(frame_with(out.mistakes, cut_at, right));
+      const Apart left = apart_.from(frame_with(out.faults, cut_at, right));
       const bool is_first = cut_at == CutAt::frame_sides;
       const auto nearer = [=](std::size_t a, std::size_t b) { return is_first ? b : std::min(a, b); };
       std::ranges::transform(out.apart, left, out.apart.begin(), nearer);
@@ -57,48 +57,48 @@ class Trial {
     const Capture drawn = make_candidate("", cut_at)->capture(scene_, clipped);
     return std::ranges::count(drawn.records.polygons.vertices, true, &ClipVertex<double>::cut);
   }
-  ColorAndDepth frame_with(const Mistakes& mistakes, CutAt cut_at, const ColorAndDepth& right) const {
-    const auto draws_anew = [](const Mistake* m) { return m->of_scene || !m->fault.empty(); };
-    if (std::ranges::any_of(mistakes, draws_anew)) return draw_with(mistakes, scene_, conventions_, cut_at);
+  ColorAndDepth frame_with(const KnownFaults& faults, CutAt cut_at, const ColorAndDepth& right) const {
+    const auto draws_anew = [](const KnownFault* f) { return f->of_scene || !f->of_stage.empty(); };
+    if (std::ranges::any_of(faults, draws_anew)) return draw_with(faults, scene_, conventions_, cut_at);
     ColorAndDepth out = right;
-    for (const Mistake* m : mistakes) m->of_frame(out);
+    for (const KnownFault* f : faults) f->of_frame(out);
     return out;
   }
   const Scene& scene_;
   const Conventions& conventions_;
   FramesApart apart_;
-  std::map<CutAt, ColorAndDepth> right_;  // frames without a mistake
+  std::map<CutAt, ColorAndDepth> right_;  // frames without a fault
 };
 
 // "STAGE (fault NAME)", of several in the stages' order.
-std::string text_of(Mistakes mistakes) {
-  const auto stage = [](const Mistake* m) { return std::ranges::find(kStageNames, m->stage); };
-  std::ranges::stable_sort(mistakes, {}, stage);
+std::string text_of(KnownFaults faults) {
+  const auto stage = [](const KnownFault* f) { return std::ranges::find(kStageNames, f->stage); };
+  std::ranges::stable_sort(faults, {}, stage);
   std::vector<std::string> out;
-  for (const Mistake* m : mistakes) out.push_back(fmt::format("{} (fault {})", m->stage, m->name));
+  for (const KnownFault* f : faults) out.push_back(fmt::format("{} (fault {})", f->stage, f->name));
   return fmt::format("{}", fmt::join(out, " and "));
 }
 
 std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
   const double explained = 100.0 * static_cast<double>(apart - left) / static_cast<double>(apart);
   std::string names, says;
-  for (const Mistake* m : l.mistakes) {
-    names += (names.empty() ? "" : " and ") + m->name;
-    says += (says.empty() ? "" : "; ") + m->says;
+  for (const KnownFault* f : l.faults) {
+    names += (names.empty() ? "" : " and ") + f->name;
+    says += (says.empty() ? "" : "; ") + f->says;
   }
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
 }
 
-// Fills in `likely`, `ties` and `whole`, if a mistake explains nine tenths of the pixels. Where coverage is wrong on
-// its own input, or a mistake of a wrong stage explains as much, only mistakes of wrong stages count. `all`: the
-// nearest first. Returns the mistake named, or null.
+// Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels. Where coverage is wrong on
+// its own input, or a fault of a wrong stage explains as much, only faults of wrong stages count. `all`: the
+// nearest first. Returns the fault named, or null.
 const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   const auto explains = [&](const Lookalike& l) { return 10 * left(l) <= out.apart; };
   const auto is_of_wrong = [&](const Lookalike& l) {
-    return std::ranges::any_of(l.mistakes, [&](const Mistake* m) { return is_of(wrong, *m); });
+    return std::ranges::any_of(l.faults, [&](const KnownFault* f) { return is_of(wrong, *f); });
   };
-  // Coverage of given triangles needs no rounding: where it is wrong, only a mistake of coverage itself explains it.
+  // Coverage of given triangles needs no rounding: where it is wrong, only a fault of coverage itself explains it.
   const bool by_wrong = wrong.has(Stage::coverage) ||
                         std::ranges::any_of(all, [&](const Lookalike& l) { return explains(l) && is_of_wrong(l); });
   const auto counts = [&](const Lookalike& l) { return !by_wrong || is_of_wrong(l); };
@@ -106,16 +106,16 @@ const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, cons
   if (found == all.end() || !explains(*found)) return nullptr;
   const Lookalike& nearest = *found;
   out.whole = left(nearest) == 0;
-  out.likely = text_of(nearest.mistakes);
+  out.likely = text_of(nearest.faults);
   for (const Lookalike& l : all) {
-    const std::string text = text_of(l.mistakes);
+    const std::string text = text_of(l.faults);
     if (left(l) == left(nearest) && counts(l) && text != out.likely && std::ranges::count(out.ties, text) == 0)
       out.ties.push_back(text);
   }
   return &nearest;
 }
 
-// Ranks the mistakes whose frames are nearer than ours by this look, the nearest first, and writes their table. Removes
+// Ranks the faults whose frames are nearer than ours by this look, the nearest first, and writes their table. Removes
 // the others from `all`.
 Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, const StageSet& wrong) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
@@ -130,7 +130,7 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
   }
   constexpr std::size_t kShown = 8;
   out.text = "explains  pixels left  fault\n";
-  const bool is_whole = left(all.front()) == 0;  // then mistakes that leave pixels are not shown
+  const bool is_whole = left(all.front()) == 0;  // then faults that leave pixels are not shown
   for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown))) {
     if (!is_whole || left(l) == 0) out.text += line_of(l, left(l), out.apart);
   }
@@ -138,16 +138,16 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
   return out;
 }
 
-// Tries the nearest mistake together with each other one, where the nearest alone explains a third or more. A pair
-// counts only if it leaves fewer pixels than either mistake alone. `alone`: all known mistakes.
+// Tries the nearest fault together with each other one, where the nearest alone explains a third or more. A pair
+// counts only if it leaves fewer pixels than either fault alone. `alone`: all known faults.
 void seek_together(const Trial& trial, const std::vector<Lookalike>& alone, const Lookalike& nearest, Look look,
                    const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   if (3 * left(nearest) > 2 * out.apart) return;
   std::vector<Lookalike> pairs;
   for (const Lookalike& other : alone) {
-    if (other.mistakes.front()->name == nearest.mistakes.front()->name) continue;
-    Lookalike pair = trial.made({nearest.mistakes.front(), other.mistakes.front()});
+    if (other.faults.front()->name == nearest.faults.front()->name) continue;
+    Lookalike pair = trial.made({nearest.faults.front(), other.faults.front()});
     if (left(pair) < std::min(left(nearest), left(other))) pairs.push_back(std::move(pair));
   }
   if (pairs.empty()) return;
@@ -192,9 +192,9 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
     blank.apart = *differs, blank.blank = true;
     return blank;
   }
-  const std::vector<Mistake> known = known_mistakes(*seen, given);
+  const std::vector<KnownFault> known = known_faults(*seen, given);
   std::vector<Lookalike> all;
-  for (const Mistake& m : known) all.push_back(trial.made({&m}));
+  for (const KnownFault& f : known) all.push_back(trial.made({&f}));
   const Apart without = trial.made({}).apart;
   std::erase_if(all, [&](const Lookalike& l) { return l.apart == without; });  // without effect on this scene
   std::vector<Lookalikes> found;

@@ -1,4 +1,4 @@
-#include "cli/likely/known_mistakes.h"
+#include "cli/likely/known_faults.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ std::string side_of(int x, int y) {
 }
 
 // Viewports one pixel off, and samples half a pixel off, in eight directions.
-void add_neighbours(const FrameFormat& frame, std::vector<Mistake>& out) {
+void add_neighbours(const FrameFormat& frame, std::vector<KnownFault>& out) {
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
       if (dx == 0 && dy == 0) continue;
@@ -80,8 +80,8 @@ void keep_farthest(Scene& scene) {
   }
 }
 
-// Mistakes that are made of a right frame on its way into a file.
-void add_files(std::vector<Mistake>& out) {
+// Faults that a right frame gets on its way into a file.
+void add_files(std::vector<KnownFault>& out) {
   const auto add = [&](const char* name, const char* says, std::function<void(ColorAndDepth&)> change) {
     out.push_back({.stage = "file", .name = name, .says = says, .of_frame = std::move(change)});
   };
@@ -113,15 +113,15 @@ bool is_declared(const std::string_view fault, const Conventions& conventions) {
 
 }  // namespace
 
-bool is_of(const StageSet& stages, const Mistake& m) {
-  const bool is_of_window = m.name.starts_with("matrices.viewport") || m.name == "matrices.depth_range_not_mapped";
-  const std::string_view stage = is_of_window ? "window" : m.stage == "file" ? "merge" : std::string_view(m.stage);
+bool is_of(const StageSet& stages, const KnownFault& f) {
+  const bool is_of_window = f.name.starts_with("matrices.viewport") || f.name == "matrices.depth_range_not_mapped";
+  const std::string_view stage = is_of_window ? "window" : f.stage == "file" ? "merge" : std::string_view(f.stage);
   const auto at = std::ranges::find(kStageNames, stage);
   return at != kStageNames.end() && stages.has(static_cast<Stage>(at - kStageNames.begin()));
 }
 
-std::vector<Mistake> known_mistakes(const Scene& scene, const GivenFrame& given) {
-  std::vector<Mistake> out;
+std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
+  std::vector<KnownFault> out;
   add_files(out);
   add_neighbours(scene.frame, out);
   if (given.has_alpha) {
@@ -138,27 +138,28 @@ std::vector<Mistake> known_mistakes(const Scene& scene, const GivenFrame& given)
   for (const FaultInfo& fault : fault_infos()) {
     if (is_declared(fault.name, given.conventions)) continue;
     const std::string name(fault.name);
-    out.push_back({.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .fault = name});
+    out.push_back(
+        {.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .of_stage = name});
   }
-  std::erase_if(out, [&](const Mistake& m) { return is_of(given.right, m); });
+  std::erase_if(out, [&](const KnownFault& f) { return is_of(given.right, f); });
   return out;
 }
 
-ColorAndDepth draw_with(std::span<const Mistake* const> mistakes, const Scene& scene, const Conventions& conventions,
+ColorAndDepth draw_with(std::span<const KnownFault* const> faults, const Scene& scene, const Conventions& conventions,
                         CutAt cut_at) {
   Scene changed = scene;
-  std::vector<std::string> faults;
-  for (const Mistake* m : mistakes) {
-    if (m->of_scene) m->of_scene(changed);
-    if (!m->fault.empty()) faults.push_back(m->fault);
+  std::vector<std::string> of_stages;
+  for (const KnownFault* f : faults) {
+    if (f->of_scene) f->of_scene(changed);
+    if (!f->of_stage.empty()) of_stages.push_back(f->of_stage);
   }
   Request request;
   request.planes = WantedPlanes::picture;
-  Planes planes = make_candidate(faults, cut_at)->capture(changed, request).planes;
+  Planes planes = make_candidate(of_stages, cut_at)->capture(changed, request).planes;
   if (conventions.color_encoding == Conventions::Encoding::srgb) std::ranges::for_each(planes.color.values(), encode);
   ColorAndDepth out{std::move(planes.color), std::move(planes.depth)};
-  for (const Mistake* m : mistakes) {
-    if (m->of_frame) m->of_frame(out);
+  for (const KnownFault* f : faults) {
+    if (f->of_frame) f->of_frame(out);
   }
   return out;
 }
