@@ -285,6 +285,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {textures(R"({"t": {"image": {"noise": {"width": 0}}}})"), R"(at "/textures/t/image/noise/width": expected an integer from 1 to 16384, found 0)"},
     {textures(R"({"t": {"image": {"noise": {"width": 16384, "height": 16384}}}})"), R"(at "/textures/t/image/noise": expected at most 16777216 texels in all of the scene's textures, found 16384 x 16384 = 268435456)"},
     {textures(R"({"a": {"image": {"noise": {"width": 4096, "height": 4095}}}, "b": {"image": {"noise": {"width": 4097}}}})"), R"(at "/textures/b/image/noise": expected at most 16777216 texels in all of the scene's textures, 4096 more beside the others, found 4097 x 64 = 262208)"},
+    {textures(R"({"a": {"image": {"noise": {"width": 4096, "height": 4096}}}, "b": {"image": {"texels": [[[0, 0, 0, 1]]]}}, "c": {"image": {"noise": {}}}})"), R"(at "/textures/b/image/texels": expected at most 16777216 texels in all of the scene's textures, 0 more beside the others, found 1 x 1 = 1)"},
     {textures(R"({"t": {"image": {"checker": {"width": 4, "columns": 5}}}})"), R"(at "/textures/t/image/checker/columns": expected at most one for each of the 4 texels, found 5)"},
     {textures(R"({"t": {"image": {"texels": [[[0, 0, 0, 1], [1, 1, 1, 1]], [[0, 0, 0, 1]]]}}})"), R"(at "/textures/t/image/texels/1": expected an array of 2, found an array of 1)"},
     {textures(R"({"t": {"image": {"texels": [[[0, 0, 2, 1]]]}}})"), R"(at "/textures/t/image/texels/0/0/2": expected a number from 0 to 1, found 2)"},

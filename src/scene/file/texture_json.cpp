@@ -27,6 +27,14 @@ struct Image {
   int channels = 4;
 };
 
+void require_room(const JsonNode& node, Size size, std::size_t most_texels) {
+  const std::size_t texels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+  if (texels <= most_texels) return;
+  const std::string left = most_texels == kMostTexels ? "" : fmt::format(", {} more beside the others", most_texels);
+  node.refuse(fmt::format("at most {} texels in all of the scene's textures{}", kMostTexels, left),
+              fmt::format("{} x {} = {}", size.width, size.height, texels));
+}
+
 /// "width" and "height" [texels], 64 where left out.
 Size read_size(const JsonNode& node, std::size_t most_texels) {
   const auto side = [&](const char* key) {
@@ -34,12 +42,7 @@ Size read_size(const JsonNode& node, std::size_t most_texels) {
     return n ? static_cast<int>(n->integer(1, kLargestTexture)) : 64;
   };
   const Size size{side("width"), side("height")};
-  const std::size_t texels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-  if (texels > most_texels) {
-    const std::string left = most_texels == kMostTexels ? "" : fmt::format(", {} more beside the others", most_texels);
-    node.refuse(fmt::format("at most {} texels in all of the scene's textures{}", kMostTexels, left),
-                fmt::format("{} x {} = {}", size.width, size.height, texels));
-  }
+  require_room(node, size, most_texels);
   return size;
 }
 
@@ -108,7 +111,7 @@ Image made(TextureLevel level, int channels) {
 }
 
 /// Rows of texels, the first at t = 0.
-Image read_texels(const JsonNode& node) {
+Image read_texels(const JsonNode& node, std::size_t most_texels) {
   constexpr std::size_t kMostGiven = 64;
   TextureLevel out;
   for (const JsonNode& row : node.elements(1, kMostGiven)) {
@@ -119,6 +122,7 @@ Image read_texels(const JsonNode& node) {
     ++out.height;
     for (const JsonNode& texel : texels) out.texels.emplace_back(texel.vector<4>(0, 1));
   }
+  require_room(node, {out.width, out.height}, most_texels);
   return made(std::move(out), 4);
 }
 
@@ -136,7 +140,7 @@ Image read_image(const JsonNode& node, const AssetFolders& folders, std::size_t 
   const std::string_view kind = node.one_of({"file", "texels", "checker", "gradient", "bricks", "uv_grid", "noise"});
   const JsonNode n = node[kind];
   if (kind == "file") return read_image_file(n, folders, most_texels);
-  if (kind == "texels") return read_texels(n);
+  if (kind == "texels") return read_texels(n, most_texels);
   if (kind == "checker") return read_checker(n, most_texels);
   if (kind == "gradient") return read_gradient(n, most_texels);
   if (kind == "bricks") return read_bricks(n, most_texels);
