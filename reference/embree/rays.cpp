@@ -33,7 +33,7 @@ using Handle = std::unique_ptr<std::remove_pointer_t<T>, Release>;
 void require_no_error(RTCDevice device, const char* what) {
   const RTCError error = rtcGetDeviceError(device);
   if (error != RTC_ERROR_NONE) {
-    throw Unsupported(fmt::format("embree: {} failed with error {}", what, static_cast<int>(error)));
+    throw RendererFailed(fmt::format("embree: {} failed with error {}", what, static_cast<int>(error)));
   }
 }
 

@@ -53,8 +53,10 @@ void list_renderers() {
     try {
       list_renderer(name);
     } catch (const RendererFailed& e) {
-      fmt::print("{}: built in, and not usable here, install {}: {}\n", name,
-                 name == "osmesa" ? "libosmesa6" : "libgl1-mesa-dri", e.what());
+      const char* package = name == "osmesa" ? ", install libosmesa6"
+                            : name == "egl"  ? ", install libgl1-mesa-dri"
+                                             : "";
+      fmt::print("{}: built in, and not usable here{}: {}\n", name, package, e.what());
     } catch (const std::runtime_error& e) {  // of temporary files
       fmt::print("{}: built in, and not usable here: {}\n", name, e.what());
     }
