@@ -60,6 +60,10 @@ TEST_F(MeshFile, ReadsBinaryPlyOfBothByteOrders) {
     refused(write(header + body + "x", "mesh.ply"), "expected the file's end after its last element, found 1 bytes");
     body[36] = 2;
     refused(write(header + body, "mesh.ply"), "expected faces of three corners or more, found 2 in face 0");
+    std::string with_sign = header;
+    with_sign.replace(with_sign.find("uchar"), 5, "char");
+    body[36] = static_cast<char>(-125);
+    refused(write(with_sign + body, "mesh.ply"), "expected a list's count, found a negative one in face 0 of 1");
   }
 }
 

@@ -18,6 +18,7 @@ struct Property {
   std::string name;
   std::size_t size = 0;        ///< bytes of the value, or of each of a list's
   std::size_t count_size = 0;  ///< bytes of a list's count; 0: no list
+  bool count_has_sign = false;
   bool integer = false, has_sign = false;
 };
 struct Element {
@@ -53,7 +54,9 @@ Property read_property(std::string_view line) {
   Property property;
   std::string_view type = take_word(line);
   if (type == "list") {
-    property.count_size = size_of(take_word(line), true);
+    const std::string_view count = take_word(line);
+    property.count_size = size_of(count, true);
+    property.count_has_sign = !count.starts_with('u');
     type = take_word(line);
   }
   property.size = size_of(type, false);
@@ -159,7 +162,11 @@ void check_row_of_bytes(std::string_view& bytes, const Element& element, std::ui
     if (property.count_size > 0) {
       const std::string_view count = bytes.substr(0, property.count_size);
       take(property.count_size);
-      check_corners(element, property, row, values = read_count(count, property.count_size, format));
+      values = read_count(count, property.count_size, format);
+      if (property.count_has_sign && values >> (8 * property.count_size - 1) != 0) {
+        refuse("a list's count", fmt::format("a negative one in {} {} of {}", element.name, row, element.count));
+      }
+      check_corners(element, property, row, values);
     }
     take(values * property.size);
   }
