@@ -24,7 +24,9 @@ double place_error(const glm::dmat4& m,
 Known unit(const Known& a) {
   const double length = glm::length(a.v);
   if (!(length > 2 * a.error)) return {{0, 0, 1}, 2};
-  return {a.v / length, a.error / length + 4 * kFloatRounding};
+  // The direction is off by an angle of at most asin(r), whose chord is 2 sin(asin(r) / 2).
+  const double r = a.error / length, chord = r * std::sqrt(2 / (1 + std::sqrt(1 - r * r)));
+  return {a.v / length, chord + 4 * kFloatRounding};
 }
 
 Known eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {

@@ -19,7 +19,8 @@ using ColorInterval = std::array<Interval, 4>;
 
 /// color +- bound, per channel.
 ColorInterval around(const glm::dvec4& color, double bound);
-/// Lower and upper ends (rounded to float) and middle of each channel.
+/// Lower and upper ends, rounded to the nearest float, and middle of each channel. Rounding is monotone: every float of
+/// the interval stays within its rounded ends.
 glm::vec4 low(const ColorInterval& color);
 glm::vec4 high(const ColorInterval& color);
 glm::dvec4 middle(const ColorInterval& color);

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "reference/arithmetic/color_error.h"
 #include "tests/check/fixtures.h"
 
 namespace plumbline::math {
@@ -170,6 +171,20 @@ TEST_F(LightBoundsTest, OfAHighlightSeenAgainstTheLightGrows) {
 }
 
 // Position, normal and light off by up to their errors, at a cone's edge in most tries: the colours stay within the bound.
+// Of all vectors within an error of +z, those at which a line from the origin touches the sphere turn farthest.
+TEST(UnitVector, BoundsTheDirectionOfEveryVectorWithinTheError) {
+  const glm::dvec3 z(0, 0, 1);
+  for (const double error : {0.01, 0.3, 0.4999}) {
+    const double angle = std::asin(error), length = std::cos(angle);
+    const glm::dvec3 farthest(length * std::sin(angle), 0, length * std::cos(angle));
+    ASSERT_NEAR(glm::distance(z, farthest), error, 1e-15);
+    const double off = glm::distance(z, glm::normalize(farthest));
+    EXPECT_GE(unit({z, error}).error, off);
+    EXPECT_NEAR(unit({z, error}).error, off, 1e-6);
+  }
+  EXPECT_EQ(unit({z, 0.5}).error, 2) << "no direction is certain";
+}
+
 TEST(LightError, HoldsWhateverItsInputsErrorsMake) {
   std::mt19937 random(9);
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
