@@ -122,24 +122,25 @@ void read_state(const JsonNode& node, DrawState& state) {
   read_fragment_state(node, draw);
 }
 
-}  // namespace
-
-DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
-  node.only(kStateKeys);
+DrawState read_keys(const JsonNode& node, std::span<const std::string_view> keys, const DrawState& defaults,
+                    const std::vector<Texture>& textures) {
+  node.only(keys);
   DrawState state = defaults;
   read_state(node, state);
   if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 
+}  // namespace
+
+DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
+  return read_keys(node, kStateKeys, defaults, textures);
+}
+
 DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
   std::vector<std::string_view> keys{"mesh"};
   keys.insert(keys.end(), std::begin(kStateKeys), std::end(kStateKeys));
-  node.only(keys);
-  DrawState state = defaults;
-  read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
-  return state;
+  return read_keys(node, keys, defaults, textures);
 }
 
 }  // namespace plumbline

@@ -174,18 +174,12 @@ Mesh read_grid(const JsonNode& node, std::size_t most_triangles) {
   return make_grid(columns, rows);
 }
 
-Mesh read_uv_sphere(const JsonNode& node, std::size_t most_triangles) {
+/// `make`: make_uv_sphere or make_globe.
+Mesh read_sphere(const JsonNode& node, Mesh (*make)(int slices, int stacks), std::size_t most_triangles) {
   node.only({"slices", "stacks"});
   const int slices = read_count(node["slices"], 3, kMostCells), stacks = read_count(node["stacks"], 2, kMostCells);
   allow_triangles(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(stacks - 1), most_triangles);
-  return make_uv_sphere(slices, stacks);
-}
-
-Mesh read_globe(const JsonNode& node, std::size_t most_triangles) {
-  node.only({"slices", "stacks"});
-  const int slices = read_count(node["slices"], 3, kMostCells), stacks = read_count(node["stacks"], 2, kMostCells);
-  allow_triangles(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(stacks - 1), most_triangles);
-  return make_globe(slices, stacks);
+  return make(slices, stacks);
 }
 
 Mesh read_icosphere(const JsonNode& node, std::size_t most_triangles) {
@@ -241,8 +235,8 @@ Mesh make(std::string_view kind, const JsonNode& node, std::size_t most_triangle
   if (kind == "points") return read_points(node);
   if (kind == "quad") return read_quad(node);
   if (kind == "grid") return read_grid(node, most_triangles);
-  if (kind == "uv_sphere") return read_uv_sphere(node, most_triangles);
-  if (kind == "globe") return read_globe(node, most_triangles);
+  if (kind == "uv_sphere") return read_sphere(node, make_uv_sphere, most_triangles);
+  if (kind == "globe") return read_sphere(node, make_globe, most_triangles);
   if (kind == "icosphere") return read_icosphere(node, most_triangles);
   if (kind == "torus_knot") return read_torus_knot(node, most_triangles);
   if (kind == "revolution") return read_revolution(node, most_triangles);
