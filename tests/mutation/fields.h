@@ -25,7 +25,7 @@ inline std::vector<std::string> fields_of(std::string_view text, char by) {
   return out;
 }
 
-/// The number that all of `digits` are, to this base. Throws std::runtime_error: "PLACE: expected a number of base ...".
+/// The number that all of `digits` are, to this base. Throws std::runtime_error, "PLACE: expected a number of base N".
 inline std::uint64_t number_of(std::string_view digits, int base, std::string_view place) {
   std::uint64_t out = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out, base);
