@@ -100,6 +100,12 @@ TEST_F(Server, IsStartedAgainWhereItEndedHungOrSpokeNonsense) {
   }
 }
 
+TEST_F(Server, IsSlowWhereItsManifestIsNotWhole) {
+  const std::string how = failure(*server("printf '{' > \"$out/manifest.json\"; sleep 60"));
+  EXPECT_HAS(how, "took longer than 2s and was killed");
+  EXPECT_EQ(how.find("no line of answer"), std::string::npos) << how;
+}
+
 TEST_F(Server, AnAnswerBeforeTheQuestionIsNotTakenForTheNext) {
   const auto renderer = server("cp \"$good\"/* \"$out\"; printf 'ok\\nok\\n'");
   EXPECT_EQ(failure(*renderer), "it did not fail");

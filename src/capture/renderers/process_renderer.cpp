@@ -101,6 +101,16 @@ std::uintmax_t bytes_below(const fs::path& folder) {
   return sum;
 }
 
+// Whether the program wrote all of a capture, and has not just begun it.
+bool is_whole_capture(const fs::path& folder) {
+  try {
+    read_capture(folder);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 // A program's words for a message: a short line without control characters.
 std::string shortened(std::string text) {
   constexpr std::size_t kMost = 200;
@@ -204,7 +214,7 @@ class ProcessRenderer : public Renderer {
     const std::optional<std::string> answer = server_->ask(input.string() + '\t' + output.string());
     if (!answer) {
       Ending ending = ending_of(server_->end(), spec_.timeout);
-      if (server_->end().hung && fs::exists(output / "manifest.json"))
+      if (server_->end().hung && is_whole_capture(output))
         ending.words += ": it left a capture, and no line of answer on stdout (flush stdout after each)";
       server_.reset();
       take(ending);
