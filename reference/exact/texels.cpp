@@ -100,7 +100,8 @@ void filter_texels(const Scene& scene, const Records<double>& records, Capture& 
       const glm::dvec2 at(st.fragments[i]);
       Texel<double>& texel = out.records.texels[i];
       texel = texel_at(t, at, x, y);
-      if (own_lod) texel.color = math::filtered_texel(texture, at, records.texels[i].lod);
+      if (own_lod && !std::isnan(records.texels[i].lod))
+        texel.color = math::filtered_texel(texture, at, records.texels[i].lod);
       double lo = 0, hi = 0;
       if (math::depends_on_lambda(texture.sampler)) lambda_interval(t, at, x, y, lo, hi);
       out.legal.texels[i] = math::texel_range(texture, at, lo, hi);

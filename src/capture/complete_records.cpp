@@ -178,6 +178,9 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   std::ranges::stable_sort(r.polygons.polygons, {}, &ClipPolygon::primitive);
   if (capture.derived.contains("vertex.n_eye")) derive_normals(draws, r);
   if (capture.derived.contains("clip.cut")) derive_cut(draws, r);
+  if (capture.derived.contains("texture.lod")) {
+    for (Texel<double>& texel : r.texels) texel.lod = std::numeric_limits<double>::quiet_NaN();
+  }
   derive_window(draws, conventions, capture);
   sort_triangles(r);
   sort_fragments(r);

@@ -13,7 +13,7 @@ namespace plumbline {
 /// Fills the columns named in `capture.derived`, and clears that set: vertex.n_eye from the capture's matrices and the
 /// mesh; clip.cut: false where p_clip equals, in float, that of one of the primitive's vertices; window.snapped from
 /// p_win and the conventions, window.front from the snapped area, window.corners and window.width from the mesh and the
-/// draw.
+/// draw; texture.lod with NaN, for it follows from nothing that is recorded.
 ///
 /// Rounds planes.depth to the nearest codes where it was read from floats, and to float where the format is z32f.
 ///

@@ -191,7 +191,7 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
   group(Stage::depth, "depth", of(&R::depth), ItselfColumn{"value"});
   group(Stage::attributes, "attributes", of(&R::attributes), Column{"color", &Attributes<double>::color});
   group(Stage::texture, "texture", of(&R::texels), Column{"color", &Texel<double>::color},
-        Column{"lod", &Texel<double>::lod});
+        Column{"lod", &Texel<double>::lod, kDerivable});
   group(Stage::shade, "shade", of(&R::shaded), Column{"color", &Shaded<double>::color});
   group(Stage::visibility, "visibility", of(&R::drawn), Column{"drawn", &Drawn::drawn});
 

@@ -45,7 +45,7 @@ class LodRounding {
 }  // namespace
 
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor) {
+                           double factor, const std::vector<TexelRange>* legal) {
   const std::size_t count = candidate.covered.size();
   if (candidate.texels.size() != count || reference.texels.size() != count) {
     return mismatch("u", "not a texel for each fragment", std::max(candidate.texels.size(), count));
@@ -58,15 +58,18 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   for (std::size_t i = 0; i < count; ++i) {
     const Covered& c = candidate.covered[i];
     const Texel<double>&a = candidate.texels[i], &b = reference.texels[i];
+    const bool lacks_lod = std::isnan(a.lod) && legal != nullptr && legal->size() == count;
     for (int k = 0; k < 4; ++k) {
-      meter.value(difference(a.color[k], b.color[k]) / (u * magnitude), factor, {c.x, c.y, c.triangle, "texel"},
-                  a.color[k], b.color[k]);
+      const double off =
+          lacks_lod ? outside(a.color[k], (*legal)[i].lo[k], (*legal)[i].hi[k]) : difference(a.color[k], b.color[k]);
+      meter.value(off / (u * magnitude), factor, {c.x, c.y, c.triangle, "texel"}, a.color[k], b.color[k]);
     }
+    meter.item();
+    if (lacks_lod) continue;
     const double lod = std::max(a.lod, kLeast), exact = std::max(b.lod, kLeast);
     const double unit = u * std::max(1.0, std::abs(exact));
     meter.value(difference(lod, exact) / unit, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
                 difference(lod, exact) <= factor * unit ? 0 : rounding(c) / unit);
-    meter.item();
   }
   return meter.done();
 }

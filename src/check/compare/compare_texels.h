@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "capture/capture.h"
 #include "check/verdict/measure.h"
@@ -12,8 +13,10 @@ namespace plumbline::check {
 /// The candidate's texels against exact's at the candidate's own texture coordinates and levels of detail: `factor` u
 /// of the largest component of all textures, at least 1. Levels of detail lambda: `factor` u of |lambda|, at least 1,
 /// and their rounding in double; all below -16, which no texture is large enough for, count as -16.
+///
+/// `legal`: exact's legal texels, by which a texel without a level of detail (NaN) is compared; null: each has one.
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor);
+                           double factor, const std::vector<TexelRange>* legal = nullptr);
 
 /// The winners' texels where the winners are the same, in u: within the candidate's legal.texels and FragmentBounds'
 /// slack. Where it is open which texel is the nearest, any is legal. Of such pixels p are predicted; more than

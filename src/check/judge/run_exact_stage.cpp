@@ -165,7 +165,10 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
     }
     case Stage::depth: return add([&](double f) { return compare_depth(c.scene, mine, theirs, f, c.conventions); });
     case Stage::attributes: return add([&](double f) { return varyings(compare_attributes(mine, theirs, f)); });
-    case Stage::texture: return add([&](double f) { return compare_texels(c.scene, mine, theirs, f); });
+    case Stage::texture: {
+      const std::vector<TexelRange>* legal = c.foreign ? &made.legal.texels : nullptr;
+      return add([&](double f) { return compare_texels(c.scene, mine, theirs, f, legal); });
+    }
     case Stage::shade:
       if (is_plain(c.scene)) return c.add(name, stage, compare_shaded(c.scene, mine, theirs, 0));
       return add([&](double f) { return compare_shaded(c.scene, mine, theirs, f); });

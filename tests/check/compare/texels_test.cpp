@@ -74,6 +74,19 @@ TEST(CompareTexels, RefusesWhatIsNoNumberOrLacking) {
   EXPECT_FALSE(compare_texels(two.scene, two.mine, two.theirs, 3).mismatch.empty());
 }
 
+TEST(CompareTexels, WithoutALevelOfDetailAreHeldToAllLegalOnes) {
+  Two two = equal_texels();
+  std::vector<TexelRange> legal(2);
+  for (std::size_t i = 0; i < 2; ++i) legal[i].lo = legal[i].hi = two.theirs.texels[i].color;
+  legal[0].hi.g = 0.5;
+  two.mine.texels[0] = {{0.5, 0.5, 1, 1}, std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_EQ(compare_texels(two.scene, two.mine, two.theirs, 3, &legal).differing, 0u);
+  two.mine.texels[0].color.g += 4 * u;
+  EXPECT_EQ(compare_texels(two.scene, two.mine, two.theirs, 3, &legal).differing, 1u);
+  two.mine.texels[0].color.g = 0.25;
+  EXPECT_EQ(compare_texels(two.scene, two.mine, two.theirs, 3).differing, 1u) << "whoever hands one out has to";
+}
+
 TEST(TexelBound, HoldsWhereverThePlaceMayBe) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-2, 2), level(-1, 3), share(-1, 1);
