@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -20,25 +21,43 @@ constexpr double kDoubleError = 1e-12;
 
 // The candidate's entries are rounded to float: a renderer may hold matrices in double.
 template <class Matrix, class Unit>
-void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, double factor, const Place& place) {
+void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, double factor, const Place& place,
+                 const Matrix& allowance = Matrix(0)) {
   for (int column = 0; column < Matrix::length(); ++column) {
     double largest = 0;  // of the column: a far translation is no excuse for a rotation
     for (int row = 0; row < Matrix::length(); ++row) largest = std::max(largest, std::abs(b[column][row]));
     for (int row = 0; row < Matrix::length(); ++row) {
       const double x = to_float(a[column][row]), y = b[column][row], diff = difference(x, y);
-      meter.value(diff == 0 ? 0 : diff / unit(y, largest), factor, place, x, y);
+      meter.value(diff == 0 ? 0 : diff / unit(y, largest), factor, place, x, y,
+                  allowance[column][row] / unit(y, largest));
     }
   }
 }
 
-Measurement compare_matrices_by(const Records<double>& candidate, const Records<double>& reference, bool normal,
-                                const std::string& name, double factor, double (*unit)(double, double)) {
+template <class M>
+M absolute(const M& m) {
+  M out;
+  for (int column = 0; column < M::length(); ++column) out[column] = glm::abs(m[column]);
+  return out;
+}
+
+// Error of a normal matrix N that is inverted in float.
+Mat3<double> inversion_error(const Matrices<double>& m) {
+  const Mat3<double> n = absolute(m.normal);
+  return 8 * u * (n * glm::transpose(absolute(Mat3<double>(m.model_view))) * n);
+}
+
+// `normals`: how the normal matrix may be inverted; none: it is not compared.
+Measurement compare_matrices_by(const Records<double>& candidate, const Records<double>& reference,
+                                std::optional<Inversion> normals, const std::string& name, double factor,
+                                double (*unit)(double, double)) {
   return each("matrices", name, candidate.matrices.size(), reference.matrices.size(), [&](Meter& meter, std::size_t i) {
     const Matrices<double>&a = candidate.matrices[i], &b = reference.matrices[i];
     const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
     add_entries(meter, a.model_view, b.model_view, unit, factor, at("model_view"));
     add_entries(meter, a.projection, b.projection, unit, factor, at("projection"));
-    if (normal) add_entries(meter, a.normal, b.normal, unit, factor, at("normal"));
+    const Mat3<double> error = normals == Inversion::in_float ? inversion_error(b) : Mat3<double>(0);
+    if (normals) add_entries(meter, a.normal, b.normal, unit, factor, at("normal"), error);
     const auto units = [&](const Vec3<double>& v) { return Vec3<double>(unit(v.x, 0), unit(v.y, 0), unit(v.z, 0)); };
     const auto rounded = [](const Vec3<double>& v) {
       return Vec3<double>(to_float(v.x), to_float(v.y), to_float(v.z));
@@ -52,12 +71,13 @@ Measurement compare_matrices_by(const Records<double>& candidate, const Records<
 
 Measurement compare_rounded_matrices(const Records<double>& candidate, const Records<double>& reference,
                                      double factor) {
-  return compare_matrices_by(candidate, reference, false, "1e-12", factor,
+  return compare_matrices_by(candidate, reference, std::nullopt, "1e-12", factor,
                              [](double, double largest) { return kDoubleError * std::max(1.0, largest); });
 }
 
-Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor) {
-  return compare_matrices_by(candidate, reference, true, "half ULP", factor, [](double value, double largest) {
+Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor,
+                             Inversion inversion) {
+  return compare_matrices_by(candidate, reference, inversion, "half ULP", factor, [](double value, double largest) {
     return 0.5 * ulp(value) + kDoubleError * std::max(1.0, largest);
   });
 }

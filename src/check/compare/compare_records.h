@@ -16,8 +16,12 @@ namespace plumbline::check {
 /// Against matrices that were rounded to float, too; not the normal matrix, which OpenGL keeps inside. Unit: 1e-12 of
 /// the column's largest entry, or of 1.
 Measurement compare_rounded_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
-/// Against unrounded matrices.
-Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
+/// Precision in which a renderer inverts the model-view M for its normal matrix N.
+enum class Inversion { in_double, in_float };
+/// Against unrounded matrices. Inversion in float, of M rounded to float: each entry of N may be off by 8 u of that of
+/// |N| |M|^T |N| besides, as Mesa's (ledger, opengl.vertex).
+Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor,
+                             Inversion inversion = Inversion::in_double);
 
 /// The scene's lights in eye space against unrounded ones; nothing to compare where the candidate's records hold none.
 /// A place in eye space is R v + t, a direction R v. Unit: half an ULP, and the error of R's and t's entries before the
@@ -26,8 +30,6 @@ Measurement compare_matrices(const Records<double>& candidate, const Records<dou
 Measurement compare_lights(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor);
 
-/// Precision in which a reference inverts the model-view for its normals.
-enum class Inversion { in_double, in_float };
 /// p_eye, p_clip: `positions` u of their magnitudes; if 0, what the two sides' matrices differ by is allowed. n_eye:
 /// `normals` u of the magnitude for `inversion`.
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,

@@ -46,6 +46,7 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
   const StageSet of_oracle = oracle_stages(c.scene);
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
+  const Inversion inversion = c.foreign ? Inversion::in_float : Inversion::in_double;
     if (stage == Stage::resolve || (stage == Stage::texture && !textured(c.scene))) continue;
     if (candidate[stage].contradicted) {
       c.skip(name, stage, Outcome::failed, candidate[stage].reason);
@@ -66,12 +67,13 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
       const Records<double>& mine = c.candidate.records;
       const Tolerance& row = tolerance(Profile::exact, stage);
       c.add(name, stage,
-            worse(compare_matrices(mine, theirs.records, row.factor),
+            worse(compare_matrices(mine, theirs.records, row.factor, inversion),
                   compare_lights(c.scene, mine, theirs.records, row.factor)),
             &row);
     } else if (exact && stage == Stage::vertex) {
       const Tolerance& row = tolerance(Profile::exact, stage, "scene");
-      c.add(name, stage, compare_vertices(c.scene, c.candidate.records, theirs.records, row.factor, row.factor), &row);
+      c.add(name, stage,
+            compare_vertices(c.scene, c.candidate.records, theirs.records, row.factor, row.factor, inversion), &row);
     } else if (!exact && stage > Stage::clip && draws_otherwise(candidate.conventions)) {
       c.skip(name, stage, Outcome::unsupported, "it draws by other conventions: oracles and exact judge the stage");
     } else if (!info[stage].shows) {

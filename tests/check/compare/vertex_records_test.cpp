@@ -1,6 +1,8 @@
 // Comparators of stages 0 to 2: matrices, vertices, lit colours.
 #include <functional>
 
+#include <glm/gtc/matrix_inverse.hpp>
+
 #include "check/compare/compare_records.h"
 #include "tests/check/fixtures.h"
 
@@ -106,6 +108,21 @@ TEST_F(MatrixRecords, OnlyTheExactReferenceSeesTheNormalMatrix) {
   EXPECT_TRUE(passes(compare_rounded_matrices(other, records, 2)));
   EXPECT_TRUE(fails(compare_matrices(other, records, 1)));
   EXPECT_STREQ(compare_matrices(other, records, 1).worst.place.field, "normal");
+}
+
+// The inverse of a model-view that was rounded to float: where entries of the normal matrix nearly cancel, many ULP off.
+TEST_F(MatrixRecords, OfAnInversionInFloatMayBeOffByItsRoundings) {
+  const glm::dmat3 m(1, 0.2, 0.5, 0.3, 0.9, 0.9, 0.1, 0.7 + 1e-9, 0.7);  // a cofactor is 0.9e-9
+  records.matrices[0].model_view = glm::dmat4(m);
+  records.matrices[0].normal = glm::inverseTranspose(m);
+  Records<double> other = records;
+  other.matrices[0].normal = glm::inverseTranspose(glm::dmat3(glm::mat3(m)));
+  EXPECT_TRUE(fails(compare_matrices(other, records, 1)));
+  EXPECT_TRUE(passes(compare_matrices(other, records, 1, Inversion::in_float)));
+  other.matrices[0].normal[0][0] += 0.01;
+  EXPECT_TRUE(fails(compare_matrices(other, records, 1, Inversion::in_float)));
+  other.matrices[0].normal[0][0] = kNaN;
+  EXPECT_TRUE(fails(compare_matrices(other, records, 1, Inversion::in_float)));
 }
 
 TEST_F(MatrixRecords, RoundingOnceToFloatPassesTwiceFails) {
