@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -61,8 +62,22 @@ bool are_sums_of(const Records<double>& records, const Planes& planes) {
   return count.values() == planes.count.values() && (planes.id_sum.empty() || sums.values() == planes.id_sum.values());
 }
 
-Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
-                                      const Conventions& conventions) {
+namespace {
+
+// Whether rounding in float decides where a corner is snapped to: it lies between two places of the grid, but for 4 u.
+bool may_snap_otherwise(const WindowTriangle<double>& t, const Conventions& conventions) {
+  const double steps = std::exp2(conventions.subpixel_bits);
+  const auto is_between = [&](double p_win) {
+    const double middle = p_win * steps - 0.5;
+    return std::abs(middle - std::nearbyint(middle)) <= 4 * u * std::max(std::abs(middle), steps);
+  };
+  return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(v.p_win.x) || is_between(v.p_win.y); });
+}
+
+// Fragments; those on edges are ambiguous where open(triangle).
+template <class Open>
+Measurement covered_but_edges_of(const Records<double>& candidate, const Records<double>& reference,
+                                 const Conventions& conventions, Open open) {
   // Each side moves a corner by half a step of its grid in x and in y, at most; rounded down or up, by a whole step.
   const int bits = conventions.subpixel_bits;
   const double step = bits == Conventions::kFloat ? 1.0 / kSubpixel : std::exp2(-bits),
@@ -71,7 +86,7 @@ Measurement compare_covered_but_edges(const Records<double>& candidate, const Re
   const auto on_an_edge = [&](const Covered& c) {
     const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
     const glm::dvec2 p(c.x + 0.5, c.y + 0.5);
-    for (std::size_t i = 0; triangle.corners == 3 && i < 3; ++i) {
+    for (std::size_t i = 0; triangle.corners == 3 && open(triangle) && i < 3; ++i) {
       const glm::dvec2 a(triangle.v[i].p_win), along = glm::dvec2(triangle.v[(i + 1) % 3].p_win) - a, to = p - a;
       const double length = glm::length(along), beside = std::abs(along.x * to.y - along.y * to.x) / length,
                    before = glm::dot(along, to) / length;
@@ -80,6 +95,19 @@ Measurement compare_covered_but_edges(const Records<double>& candidate, const Re
     return false;
   };
   return covered_but(candidate, reference, on_an_edge);
+}
+
+}  // namespace
+
+Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
+                                      const Conventions& conventions) {
+  return covered_but_edges_of(candidate, reference, conventions, [](const auto&) { return true; });
+}
+
+Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
+                                    const Conventions& conventions) {
+  return covered_but_edges_of(candidate, reference, conventions,
+                              [&](const WindowTriangle<double>& t) { return may_snap_otherwise(t, conventions); });
 }
 
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal) {

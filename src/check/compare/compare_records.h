@@ -73,6 +73,10 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// 1/256 pixel together may move the edge. A candidate without a grid counts as one of 1/256 pixel.
 Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
                                       const Conventions& conventions);
+/// Likewise, for a candidate whose tie rule and grid the reference follows (run_by_conventions.h): ambiguous are edges
+/// of triangles alone of which a corner lies within 4 u of where two places of the grid are as near.
+Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
+                                    const Conventions& conventions);
 /// Whether planes.count, and id_sum where there is one, are the sums of the records' fragments.
 bool are_sums_of(const Records<double>& records, const Planes& planes);
 /// compare_covered(); a fragment more or less is ambiguous where `legal` leaves open how many there are

@@ -12,6 +12,7 @@
 #include "check/diagnose/worst_record.h"
 #include "check/judge/failing_stage.h"
 #include "check/judge/judge_passes.h"
+#include "check/judge/run_by_conventions.h"
 #include "check/judge/scene_case.h"
 #include "check/judge/stage_copy.h"
 #include "reference/arithmetic/passes.h"
@@ -58,9 +59,10 @@ struct Pass {
 };
 
 // What exact makes of the records before the stage; nothing where they do not fit.
-Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, const Capture& in) {
+Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, const Capture& in,
+                       const Conventions& conventions) {
   try {
-    return renderer.run_stage(scene, stage, in);
+    return run_by_conventions(renderer, scene, stage, in, conventions);
   } catch (const std::exception&) {
     return {};
   }
@@ -77,7 +79,7 @@ struct Finder {
     if (row.outcome == Outcome::failed) {
       out.numbers = {row.note};
     } else if (explain != in_brief) {
-      const Capture expected = run_or_nothing(scene, referee, row.stage, mine);
+      const Capture expected = run_or_nothing(scene, referee, row.stage, mine, conventions);
       explain({scene, row.stage, mine, expected, &referee, conventions}, out);
     }
     return out;

@@ -15,6 +15,7 @@
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
 #include "check/judge/failing_stage.h"
+#include "check/judge/run_by_conventions.h"
 #include "check/judge/scene_case.h"
 #include "check/judge/stage_copy.h"
 #include "check/judge/stage_inputs.h"
@@ -175,12 +176,13 @@ Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* r
 
 // Texture and visibility by the referee: other rows need legal texels, and which fragments are drawn. Where the referee
 // fails, its own row says so.
-MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& referee) {
+MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& referee,
+                       const Conventions& conventions) {
   MadeStages made;
   for (const Stage stage : {Stage::texture, Stage::visibility}) {
     if (!referee.info()[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
     try {
-      made.emplace(stage, referee.run_stage(scene, stage, candidate));
+      made.emplace(stage, run_by_conventions(referee, scene, stage, candidate, conventions));
     } catch (const std::exception&) {
     }
   }
@@ -349,7 +351,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     legal = &somewhere;
   }
   MadeStages made;
-  if (drew && referee != nullptr) made = make_stages(*seen, *mine, *referee);
+  if (drew && referee != nullptr) made = make_stages(*seen, *mine, *referee, conventions);
   if (const auto filtered = made.find(Stage::texture); filtered != made.end()) {
     mine->legal.texels = std::move(filtered->second.legal.texels);
   }

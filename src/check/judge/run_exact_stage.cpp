@@ -8,7 +8,7 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
-#include "check/compare/window_area.h"
+#include "check/judge/run_by_conventions.h"
 #include "check/judge/scene_case.h"
 
 namespace plumbline::check {
@@ -107,38 +107,13 @@ Planes with_either_clear_depth(const Case& c, const Planes& made) {
   return out;
 }
 
-bool is_turned_over(const WindowTriangle<double>& t) {
-  const double lies = twice_area(t, kAsItLies);
-  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0) != (twice_area(t, kSnapped) > 0);
-}
-
-// Whether the candidate declares that it snaps no corner, and has triangles that snapping turns over. Exact
-// interpolates between the snapped corners of these (reference/exact/barycentric.h), the candidate between its own.
-bool interpolates_turned(const Case& c, Stage stage) {
-  const bool snaps_nothing = c.foreign && c.conventions.subpixel_bits == Conventions::kFloat;
-  return snaps_nothing && (stage == Stage::depth || stage == Stage::attributes || stage == Stage::texture) &&
-         std::ranges::any_of(c.candidate.records.triangles, is_turned_over);
-}
-
-// The capture with snapped corners that face as the unsnapped ones; exact reads nothing but the facing from them.
-Capture facing_as_it_lies(const Capture& in) {
-  Capture out = in;
-  for (WindowTriangle<double>& t : out.records.triangles) {
-    if (!is_turned_over(t)) continue;
-    const int up = twice_area(t, kAsItLies) > 0 ? kSubpixel : -kSubpixel;
-    t.v[0].snapped = {0, 0}, t.v[1].snapped = {kSubpixel, 0}, t.v[2].snapped = {0, up};
-  }
-  return out;
-}
-
 }  // namespace
 
 void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& name) {
   if (stage >= Stage::depth && lacks_fragment_records(c.candidate))
     return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-  const bool turned = interpolates_turned(c, stage);
-  compare_stage(c, referee.run_stage(c.scene, stage, turned ? facing_as_it_lies(c.candidate) : c.candidate), stage,
-                name);
+  const Conventions by = c.foreign ? c.conventions : Conventions();
+  compare_stage(c, run_by_conventions(referee, c.scene, stage, c.candidate, by), stage, name);
 }
 
 void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& name) {
@@ -156,7 +131,10 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
     case Stage::window:
       return add([&](double f) { return varyings(compare_window(c.scene, mine, theirs, f, c.conventions)); });
     case Stage::coverage: {
-      if (covers_otherwise(c) && are_sums_of(c.candidate.records, c.candidate.planes))
+      const bool is_told = are_sums_of(c.candidate.records, c.candidate.planes);
+      if (c.foreign && is_told && knows_ties(c.scene, c.conventions))
+        return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions));
+      if (covers_otherwise(c) && is_told)
         return c.add(name, stage, compare_covered_but_edges(c.candidate.records, theirs, c.conventions));
       Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
       if (lacks_fragment_records(c.candidate))

@@ -1,0 +1,136 @@
+// Stages of renderers whose conventions are others than OpenGL's.
+#include "check/judge/run_by_conventions.h"
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+
+#include "check/compare/compare_records.h"
+#include "reference/exact/exact.h"
+#include "tests/check/fixtures.h"
+
+namespace plumbline::check {
+namespace {
+
+using C = Conventions;
+
+C by_rule(C::TieRule rule) {
+  C out;
+  out.tie_rule = rule;
+  return out;
+}
+
+struct ByConventions : testing::Test {
+  ByConventions() {
+    scene.name = "test/by_conventions";
+    scene.frame.width = 8, scene.frame.height = 6;
+    scene.meshes.push_back(make_triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}}, {}));
+    scene.draws.emplace_back();
+    candidate.width = 8, candidate.height = 6;
+  }
+  // Two halves of the square of pixels' centres (2, 1) to (5, 4).
+  void add_square() {
+    const glm::dvec3 a(2.5, 1.5, 0), b(5.5, 1.5, 0), c(5.5, 4.5, 0), d(2.5, 4.5, 0);
+    candidate.records.triangles = {triangle_of({a, b, c}, {1, 1, 1}, 0), triangle_of({a, c, d}, {1, 1, 1}, 1)};
+  }
+  Capture covered_by(C::TieRule rule) {
+    return run_by_conventions(*exact, scene, Stage::coverage, candidate, by_rule(rule));
+  }
+
+  Scene scene;
+  Capture candidate;
+  std::unique_ptr<Renderer> exact = exact::make_exact();
+};
+
+// Each rule gives the square 3 x 3 of its 4 x 4 centres, which lie on its sides or within.
+TEST_F(ByConventions, SamplesOnSidesAreOwnedByTheRule) {
+  add_square();
+  using enum C::TieRule;
+  for (const auto& [rule, x0, y0] : {std::tuple(left_bottom, 2, 1), std::tuple(left_top, 2, 2),
+                                     std::tuple(right_bottom, 3, 1), std::tuple(right_top, 3, 2)}) {
+    const Capture made = covered_by(rule);
+    ASSERT_EQ(made.records.covered.size(), 9u);
+    EXPECT_TRUE(std::ranges::is_sorted(made.records.covered, {},
+                                       [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); }));
+    for (int y = 0; y < 6; ++y) {
+      for (int x = 0; x < 8; ++x) {
+        const bool is_in = x >= x0 && x < x0 + 3 && y >= y0 && y < y0 + 3;
+        EXPECT_EQ(made.planes.count(x, y), is_in ? 1u : 0u) << x << ',' << y << ", rule " << static_cast<int>(rule);
+      }
+    }
+    EXPECT_TRUE(are_sums_of(
+        [&] {
+          Records<double> all = candidate.records;
+          all.covered = made.records.covered;
+          return all;
+        }(),
+        made.planes));
+  }
+}
+
+TEST_F(ByConventions, AScissorBoxStaysWhereItIs) {
+  add_square();
+  scene.draws[0].scissor = Scissor{3, 2, 2, 9};
+  for (const auto rule : {C::TieRule::left_bottom, C::TieRule::right_top}) {
+    const Capture made = covered_by(rule);
+    EXPECT_EQ(made.planes.count(2, 2) + made.planes.count(5, 3) + made.planes.count(3, 1), 0u);
+    EXPECT_EQ(made.planes.count(3, 2), 1u);
+    EXPECT_EQ(made.planes.count(4, 3), 1u);
+  }
+}
+
+TEST_F(ByConventions, ARuleIsKnownWhereItsGridIs) {
+  C c = by_rule(C::TieRule::left_top);
+  EXPECT_TRUE(knows_ties(scene, c));
+  c.subpixel_bits = 9;
+  EXPECT_FALSE(knows_ties(scene, c)) << "window.snapped does not hold it";
+  c.subpixel_bits = C::kFloat;
+  EXPECT_FALSE(knows_ties(scene, c));
+  for (const auto rule : {C::TieRule::any, C::TieRule::inclusive, C::TieRule::exclusive})
+    EXPECT_FALSE(knows_ties(scene, by_rule(rule)));
+  scene.frame.pass.sample = 1;
+  EXPECT_FALSE(knows_ties(scene, by_rule(C::TieRule::left_top)));
+}
+
+// A fragment that is wrong by the rule is found, unless rounding decides where a corner is snapped to.
+TEST_F(ByConventions, AWrongRuleIsFound) {
+  add_square();
+  const C c = by_rule(C::TieRule::left_top);
+  Records<double> mine = candidate.records;
+  mine.covered = covered_by(C::TieRule::left_bottom).records.covered;
+  const auto compared = [&] {
+    Capture in = candidate;
+    in.records = mine;
+    return compare_covered_by_rule(mine, run_by_conventions(*exact, scene, Stage::coverage, in, c).records, c);
+  };
+  EXPECT_EQ(compared().differing, 6u) << "3 at the bottom, 3 at the top";
+  mine.covered = covered_by(C::TieRule::left_top).records.covered;
+  EXPECT_EQ(compared().differing, 0u);
+  mine.covered = covered_by(C::TieRule::left_bottom).records.covered;
+  for (WindowTriangle<double>& t : mine.triangles) t.v[0].p_win.y += 0.5 / 256;
+  EXPECT_EQ(compared().differing, 0u);
+  EXPECT_EQ(compared().ambiguous, 6u);
+}
+
+// Alpha 0.5 + 0.0001 is the code of 0.5, and greater in float.
+TEST_F(ByConventions, AlphasAreComparedAsTheyAreInFloat) {
+  add_square();
+  scene.draws[0].alpha_test = AlphaTest{CompareFunc::greater, 0.5};
+  Records<double>& r = candidate.records;
+  r.covered = covered_by(C::TieRule::left_bottom).records.covered;
+  r.depth.assign(r.covered.size(), 0.5);
+  r.shaded.assign(r.covered.size(), {{1, 1, 1, 0.5001}});
+  r.shaded[2].color.a = 0.5;
+  C c;
+  const auto drawn = [&] {
+    const Capture made = run_by_conventions(*exact, scene, Stage::visibility, candidate, c);
+    EXPECT_EQ(made.records.drawn.size(), r.covered.size());
+    return std::ranges::count(made.records.drawn, true, &plumbline::Drawn::drawn);
+  };
+  EXPECT_EQ(drawn(), 0);
+  c.alpha_test = C::AlphaTest::in_float;
+  EXPECT_EQ(drawn(), 8);
+}
+
+}  // namespace
+}  // namespace plumbline::check
