@@ -19,6 +19,7 @@
 #include "check/judge/scene_case.h"
 #include "check/judge/stage_copy.h"
 #include "check/judge/stage_inputs.h"
+#include "check/judge/turn_triangles.h"
 #include "check/verdict/votes.h"
 
 namespace plumbline::check {
@@ -45,9 +46,9 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
   const bool exact = is_referee(info);
   const JudgeId name(info.name, exact ? Kind::from_scene : info.legal ? Kind::legal : Kind::side_by_side);
   const StageSet of_oracle = oracle_stages(c.scene);
+  const Inversion inversion = c.foreign ? Inversion::in_float : Inversion::in_double;
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-  const Inversion inversion = c.foreign ? Inversion::in_float : Inversion::in_double;
     if (stage == Stage::resolve || (stage == Stage::texture && !textured(c.scene))) continue;
     if (candidate[stage].contradicted) {
       c.skip(name, stage, Outcome::failed, candidate[stage].reason);
@@ -341,6 +342,8 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
   }
   RendererInfo mine_info = candidate.info();
   const bool drew = mine.has_value();
+  if (drew && referee != nullptr && mine_info.profile == Profile::foreign)
+    turn_as_made(*seen, mine_info, *referee, *mine);
   if (!drew) {
     verdict.comparisons.push_back(candidate_failed(scene, candidate, referee, failure, mine_info));
     mine = run_alone(scene, candidate, mine_info);

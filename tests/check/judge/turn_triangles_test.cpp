@@ -1,0 +1,116 @@
+// A renderer may begin its window triangles at any corner.
+#include "check/judge/turn_triangles.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "check/judge/judge_single.h"
+#include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
+#include "scene/file/scene_file.h"
+#include "tests/check/fixtures.h"
+
+namespace plumbline::check {
+namespace {
+
+void turn(Records<double>& r, std::size_t i, std::ptrdiff_t by) {
+  std::rotate(r.triangles[i].v.begin(), r.triangles[i].v.begin() + by, r.triangles[i].v.end());
+  for (const Varying v : kAllVaryings) {
+    auto& columns = r.varyings[v].triangles;
+    if (!columns.empty()) std::rotate(columns[i].begin(), columns[i].begin() + by, columns[i].end());
+  }
+}
+
+Records<double> two_triangles() {
+  Records<double> r;
+  r.triangles = {triangle_of({glm::dvec3(1, 2, 0.25), {9, 3, 0.5}, {4, 7, 0.75}}, {1, 0.5, 0.25}, 0),
+                 triangle_of({glm::dvec3(1, 2, 0.25), {4, 7, 0.75}, {2, 9, 0.125}}, {1, 0.25, 0.125}, 0)};
+  r.varyings[Varying::texture].triangles = {{Vec4<double>(1), Vec4<double>(2), Vec4<double>(3)},
+                                            {Vec4<double>(4), Vec4<double>(5), Vec4<double>(6)}};
+  return r;
+}
+
+void expect_in_order(const Records<double>& mine, const Records<double>& theirs) {
+  for (std::size_t i = 0; i < theirs.triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(mine.triangles[i].v[k].inv_w, theirs.triangles[i].v[k].inv_w) << i << ", corner " << k;
+      EXPECT_EQ(mine.varyings[Varying::texture].triangles[i][k], theirs.varyings[Varying::texture].triangles[i][k]);
+    }
+  }
+}
+
+TEST(TurnTriangles, TurnsEachWithItsVaryings) {
+  const Records<double> theirs = two_triangles();
+  for (const std::ptrdiff_t first : {0, 1, 2}) {
+    for (const std::ptrdiff_t second : {0, 1, 2}) {
+      Records<double> mine = theirs;
+      turn(mine, 0, first), turn(mine, 1, second);
+      turn_triangles(mine, theirs);
+      expect_in_order(mine, theirs);
+    }
+  }
+}
+
+TEST(TurnTriangles, SeesWrongPositionsByTheOtherNumbers) {
+  const Records<double> theirs = two_triangles();
+  Records<double> mine = theirs;
+  for (std::size_t i : {0u, 1u}) {
+    for (WindowVertex<double>& v : mine.triangles[i].v) v.p_win.y = 61 - v.p_win.y;
+    turn(mine, i, 2);
+  }
+  turn_triangles(mine, theirs);
+  expect_in_order(mine, theirs);
+}
+
+// Of a triangle whose corners no number tells apart, the usual turn; without one, none.
+TEST(TurnTriangles, TakesTheUsualTurnWhereNoneIsBetter) {
+  Records<double> theirs = two_triangles();
+  for (WindowVertex<double>& v : theirs.triangles[1].v) v = theirs.triangles[1].v[0];
+  Records<double> mine = theirs;
+  turn(mine, 1, 1);
+  const Records<double> as_it_was = mine;
+  turn_triangles(mine, theirs);
+  expect_in_order(mine, as_it_was);
+  turn(mine, 0, 1);
+  turn_triangles(mine, theirs);
+  expect_in_order(mine, theirs);
+}
+
+// ours, as a renderer that begins its triangles elsewhere.
+class Turned : public Renderer {
+ public:
+  RendererInfo info() const override {
+    RendererInfo out = ours_->info();
+    out.profile = Profile::foreign;
+    out.painters.clear();
+    return out;
+  }
+  Capture capture(const Scene& scene, const Request& request) override {
+    Capture out = ours_->capture(scene, request);
+    for (std::size_t i = 0; i < out.records.triangles.size(); ++i) {
+      if (out.records.triangles[i].corners == 3) turn(out.records, i, 1);
+    }
+    return out;
+  }
+
+ private:
+  std::unique_ptr<Renderer> ours_ = pipeline::make_pipeline();
+};
+
+TEST(TurnTriangles, HoldWhereverTheyBegin) {
+  const auto exact = exact::make_exact();
+  const Reference references[] = {{"exact", exact.get()}};
+  for (const char* name : {"coverage/fan", "clip/each_plane", "phong/glass", "texture/clipped", "lines/widths"}) {
+    Turned turned;
+    const Scene scene = load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/") + name + ".json", {});
+    const SceneVerdict verdict = judge_single(scene, turned, references);
+    for (const Comparison& c : verdict.comparisons) {
+      EXPECT_NE(c.outcome, Outcome::different) << name << ' ' << name_of(c.stage) << ' ' << c.note;
+      EXPECT_NE(c.outcome, Outcome::failed) << name << ' ' << name_of(c.stage) << ' ' << c.note;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::check
