@@ -43,6 +43,14 @@ TEST(Conformance, OfAScene) {
   EXPECT_TRUE(conformance_text(std::vector{verdict("a/b", {open})}).ends_with("several legal answers 1\n"));
   --open.measurement.ambiguous;
   EXPECT_EQ(conformance_of(verdict("a/b", {open})), Conformance::holds);
+  SceneVerdict proves_nothing = verdict("a/b", {open, kLacking});
+  proves_nothing.empty_holds = true;
+  EXPECT_EQ(conformance_of(proves_nothing), Conformance::unable);
+  EXPECT_TRUE(conformance_text(std::vector{proves_nothing}).ends_with("in which nothing is drawn holds, too 1\n"));
+  proves_nothing.comparisons.push_back(kIllegal);
+  EXPECT_EQ(conformance_of(proves_nothing), Conformance::differs);
+  proves_nothing.comparisons = {open, kHolds};
+  EXPECT_EQ(conformance_of(proves_nothing), Conformance::holds) << "a row proves something";
 }
 
 TEST(Conformance, TheFirstWrongStageIsTheOneThatIsWrongByItself) {

@@ -16,6 +16,20 @@ bool tests_alpha(const Scene& scene) {
   return std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
 }
 
+bool may_be_empty(const Legal& legal) {
+  if (legal.empty() || !legal.color_lo.empty()) return false;
+  bool is_all_background = true;
+  for (int y = 0; y < legal.certain.height(); ++y) {
+    for (int x = 0; x < legal.certain.width(); ++x) {
+      const std::span<const LegalAnswer> answers = legal.at(x, y);
+      const auto of_background = std::ranges::count(answers, kBackground, &LegalAnswer::primitive);
+      if (of_background == 0) return false;
+      is_all_background = is_all_background && of_background == std::ssize(answers);
+    }
+  }
+  return !is_all_background;
+}
+
 namespace {
 
 // A product by 255 in float may bring a reference to another code where it lies between two (llvmpipe makes 76 of 0.3).

@@ -18,6 +18,10 @@ namespace plumbline::check {
 /// Whether any draw tests alpha.
 bool tests_alpha(const Scene& scene);
 
+/// Whether a frame in which nothing is drawn is legal, and another one is, too: every pixel may be background, and some
+/// pixel may be of a primitive. False where legal colours are not those of the winners (Legal::color_lo).
+bool may_be_empty(const Legal& legal);
+
 /// 1 where some fragment of the candidate's, with an alpha off by up to its bound (fragment_bounds.h), may pass the
 /// test in the format `theirs` and fails it in the candidate's, or the other way round; and where the reference alone
 /// has a fragment. Needs the candidate's records.

@@ -353,6 +353,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     somewhere = legal_where_apart(scene, *mine, theirs, *referee, conventions);
     legal = &somewhere;
   }
+  verdict.empty_holds = may_be_empty(*legal);
   MadeStages made;
   if (drew && referee != nullptr) made = make_stages(*seen, *mine, *referee, conventions);
   if (const auto filtered = made.find(Stage::texture); filtered != made.end()) {

@@ -103,8 +103,9 @@ struct SceneVerdict {
   std::string path;
   std::vector<Comparison> comparisons;
   double seconds = 0;
-  std::string failure{};  ///< lines: why it does not hold; empty: it does
-  std::string repeat{};   ///< the command that repeats the failure
+  bool empty_holds = false;  ///< a frame in which nothing is drawn is legal, and another one is, too
+  std::string failure{};     ///< lines: why it does not hold; empty: it does
+  std::string repeat{};      ///< the command that repeats the failure
   /// "STAGE (fault NAME)": known faults that draw what another renderer drew, and which its frame does not tell apart.
   std::vector<std::string> causes{};
 };

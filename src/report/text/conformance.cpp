@@ -25,13 +25,15 @@ std::vector<std::pair<std::string, std::size_t>> by_count(const Counts& counts) 
 
 std::string group_of(const check::SceneVerdict& verdict) { return verdict.scene.substr(0, verdict.scene.find('/')); }
 
-// Whether every item compared has several legal answers, so that even a program that draws nothing may hold.
+// Whether every item compared has several legal answers, or a program that draws nothing holds: all rows are of the
+// frame, and leave open what it holds.
 bool is_open(const check::SceneVerdict& verdict) {
   std::size_t open = 0;
   for (const check::Comparison& c : verdict.comparisons) {
     if (!check::votes(c) || !check::was_compared(c)) continue;
     const check::Measurement& m = c.measurement;
-    if (c.outcome != check::Outcome::ambiguous_only || m.items == 0 || m.ambiguous < m.items) return false;
+    const bool is_all = m.items > 0 && m.ambiguous >= m.items;
+    if (c.outcome != check::Outcome::ambiguous_only || !(is_all || verdict.empty_holds)) return false;
     ++open;
   }
   return open > 0;
@@ -50,7 +52,8 @@ std::string unable_reason(const check::SceneVerdict& verdict) {
   const auto& rows = verdict.comparisons;
   const bool by_itself = !rows.empty() && rows.front().judge.reference == kProgram;
   if (by_itself) return rows.front().note;
-  return is_open(verdict) ? "every pixel has several legal answers" : "nothing that it left could be judged";
+  if (!is_open(verdict)) return "nothing that it left could be judged";
+  return verdict.empty_holds ? "a frame in which nothing is drawn holds, too" : "every pixel has several legal answers";
 }
 
 const check::Comparison* first_wrong(const check::SceneVerdict& verdict) {
