@@ -117,21 +117,27 @@ Measurement compare_open_covered(const Capture& candidate, const Records<double>
 }
 
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                          double factor, const Conventions& conventions) {
+                          double factor, const Conventions& conventions, double from_origin) {
   const double middle = middle_of(conventions.depth_rounding);
-  return each_fragment("depths", "step", candidate, candidate.depth.size(), reference.depth.size(),
-                       [&](Meter& meter, std::size_t i) {
-                         const double a = candidate.depth[i], b = reference.depth[i];
-                         const Covered& c = candidate.covered[i];
-                         const double step = depth_step(scene.frame.depth, b);
-                         const double apart = difference(a + middle * step, b) / step;
-                         const bool needed = apart > factor && c.triangle < candidate.triangles.size();
-                         const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
-                         meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b);
-                       });
+  const bool may_be_float = from_origin > 0 && scene.frame.depth == DepthFormat::z32f;
+  return each_fragment(
+      "depths", "step", candidate, candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {
+        const double a = candidate.depth[i], b = reference.depth[i];
+        const Covered& c = candidate.covered[i];
+        const double step = depth_step(scene.frame.depth, b);
+        const double apart = difference(a + middle * step, b) / step;
+        const bool needed = apart > factor && c.triangle < candidate.triangles.size();
+        const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
+        const double allowance =
+            needed && may_be_float
+                ? from_origin * u * bounds_from_origin(candidate.triangles[c.triangle], c.x, c.y).depth / step
+                : 0;
+        meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b, allowance);
+      });
 }
 
-Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor) {
+Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
+                               double from_origin) {
   return each_fragment(
       "attributes", "u", candidate, candidate.attributes.size(), reference.attributes.size(),
       [&](Meter& meter, std::size_t i) {
@@ -149,8 +155,11 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
           }
           return;
         }
+        const Vec4<double> allowance =
+            from_origin > 0 ? from_origin * u * bounds_from_origin(candidate.triangles[c.triangle], c.x, c.y).color
+                            : Vec4<double>(0);
         add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound + kGradualUnderflow, factor,
-            {c.x, c.y, c.triangle, "color"});
+            {c.x, c.y, c.triangle, "color"}, allowance);
       });
 }
 

@@ -57,9 +57,10 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
 
 /// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
 /// the candidate's own p_win, exactly, to the grid of its conventions. Other facings, and missing or extra triangles,
-/// are legal where the candidate's clip polygons leave them open (legal_window.h); the colours are those of the face.
+/// are legal where the candidate's clip polygons leave them open (legal_window.h); the colours are those of the face,
+/// but for `colors` u of the value, or of 1.
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor, const Conventions& conventions = {});
+                           double factor, const Conventions& conventions = {}, double colors = 0);
 /// Bit for bit (as floats), but 1/w, which has the tolerance `factor` [ULP]. Colours are not compared: feedback has
 /// none of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h,
 /// turned_outlines): ambiguous.
@@ -82,10 +83,14 @@ bool are_sums_of(const Records<double>& records, const Planes& planes);
 /// compare_covered(); a fragment more or less is ambiguous where `legal` leaves open how many there are
 /// (compare_planes.h), as long as others differ.
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal);
-/// In steps of the depth format; rounded to it as the candidate's conventions say.
+/// In steps of the depth format; rounded to it as the candidate's conventions say. `from_origin`: of a renderer that
+/// may interpolate in float, u of bounds_from_origin()'s magnitude that a depth of a float format may be off by besides;
+/// code formats are coarser, and a truncated code would pass.
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                          double factor, const Conventions& conventions = {});
-Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor);
+                          double factor, const Conventions& conventions = {}, double from_origin = 0);
+/// `from_origin`: as in compare_depth().
+Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
+                               double from_origin = 0);
 /// Of plain draws bit for bit (as floats); of others `factor` u of each step's magnitude (shade_bounds.h).
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor);

@@ -23,10 +23,11 @@ Colors colors_of(const WindowTriangle<double>& t) { return {t.v[0].color, t.v[1]
 class RunComparison {
  public:
   RunComparison(Meter& meter, const Scene& scene, const Records<double>& candidate, double factor,
-                const Conventions& conventions)
+                const Conventions& conventions, double colors)
       : meter_(meter),
         factor_(factor),
         conventions_(conventions),
+        colors_(colors),
         legal_(scene, candidate, factor, FacingArea::snapped) {}
 
   void operator()(Run mine, Run theirs, std::size_t first) {
@@ -107,7 +108,8 @@ class RunComparison {
         const double own = snapped(conventions_, (v.p_win[c] - 0.5) * kSubpixel);
         meter_.value(difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
       }
-      add(meter_, v.color, colors[k], Vec4<double>(u), 0, at(number, "color"));
+      const Vec4<double> allowance = colors_ * u * glm::max(glm::abs(colors[k]), Vec4<double>(1));
+      add(meter_, v.color, colors[k], Vec4<double>(u), 0, at(number, "color"), allowance);
     }
     meter_.value(a.corners == b.corners ? 0 : kInfinite, 0, at(number, "corners"), a.corners, b.corners);
     meter_.value(difference(a.width, b.width), 0, at(number, "width"), a.width, b.width);
@@ -118,19 +120,20 @@ class RunComparison {
   Meter& meter_;
   double factor_;
   const Conventions& conventions_;
+  double colors_;
   LegalWindow legal_;
 };
 
 }  // namespace
 
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor, const Conventions& conventions) {
+                           double factor, const Conventions& conventions, double colors) {
   const auto &a = candidate.triangles, &b = reference.triangles;
   if (candidate.matrices.empty() || candidate.matrices.size() != scene.draws.size()) {
     return mismatch("u", "no matrices", std::max(a.size(), b.size()));
   }
   Meter meter("u");
-  RunComparison compare(meter, scene, candidate, factor, conventions);
+  RunComparison compare(meter, scene, candidate, factor, conventions, colors);
   matched_by_primitive(Run(a), Run(b), [&](Run mine, Run theirs) {
     compare(mine, theirs, mine.empty() ? 0 : static_cast<std::size_t>(mine.data() - a.data()));
   });

@@ -8,6 +8,7 @@
 #include "check/compare/compare_records.h"
 #include "check/diagnose/known_causes.h"
 #include "check/judge/judge_passes.h"
+#include "check/judge/run_by_conventions.h"
 #include "check/judge/scene_case.h"
 
 namespace plumbline::check {
@@ -28,21 +29,23 @@ std::uint64_t differing(const Evidence& e, const Capture& made) {
   const Legal none;
   Case c{e.scene, e.candidate, none, nullptr, rows};
   c.conventions = e.conventions;
+  c.foreign = e.foreign;
   compare_stage(c, made, e.stage, "");
   return rows.empty() ? 0 : rows.back().measurement.differing;
 }
 
 }  // namespace
 
-Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer) {
+Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer,
+                  const Conventions& conventions) {
   Capture made;
   if (cause.before != nullptr) {
     Scene wrong = scene;
     Capture changed = in;
     cause.before(wrong, changed);
-    made = renderer.run_stage(wrong, cause.stage, changed);
+    made = run_by_conventions(renderer, wrong, cause.stage, changed, conventions);
   } else {
-    made = renderer.run_stage(scene, cause.stage, in);
+    made = run_by_conventions(renderer, scene, cause.stage, in, conventions);
   }
   if (cause.after != nullptr) cause.after(scene, in, made);
   return made;
@@ -68,7 +71,7 @@ std::vector<Cause> likely_causes(const Evidence& e) {
         if (cause.shows(e)) out.push_back({cause.name, std::string(cause.words)});
         continue;
       }
-      const std::uint64_t left = differing(e, made_with(cause, e.scene, e.candidate, *e.referee));
+      const std::uint64_t left = differing(e, made_with(cause, e.scene, e.candidate, *e.referee, e.conventions));
       if (left > all / 50) continue;
       tried.push_back(
           {left, {cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)}});

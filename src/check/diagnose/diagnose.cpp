@@ -68,19 +68,22 @@ Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, cons
   }
 }
 
+bool is_foreign(Renderer& candidate) { return candidate.info().profile == Profile::foreign; }
+
 // Makes findings of wrong rows, with exact's output as the expected one.
 struct Finder {
   const Scene& scene;
   Renderer& referee;
   Explain explain;
   Conventions conventions;
+  bool foreign;
   Finding operator()(const Capture& mine, const Comparison& row) const {
     Finding out = finding_of(row);
     if (row.outcome == Outcome::failed) {
       out.numbers = {row.note};
     } else if (explain != in_brief) {
       const Capture expected = run_or_nothing(scene, referee, row.stage, mine, conventions);
-      explain({scene, row.stage, mine, expected, &referee, conventions}, out);
+      explain({scene, row.stage, mine, expected, &referee, conventions, foreign}, out);
     }
     return out;
   }
@@ -107,6 +110,7 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
       std::vector<Comparison> rows;
       const Legal none;
       Case c{scene, in, none, &referee, rows};
+      c.conventions = find.conventions, c.foreign = find.foreign;
       try {
         copy_stage(stage, candidate.run_stage(scene, stage, in), in);
         run_exact_stage(c, referee, stage, name);
@@ -164,6 +168,7 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
     const JudgeId name(find.referee.info().name, Kind::at_worst);
     const Legal none;
     Case c{find.scene, mine, none, &find.referee, pass.verdict.comparisons};
+    c.conventions = find.conventions, c.foreign = find.foreign;
     for (const Stage stage : {Stage::depth, Stage::attributes, Stage::texture, Stage::shade}) {
       if ((stage == Stage::texture && !textured(find.scene)) || lacks_fragment_records(mine)) continue;
       run_exact_stage(c, find.referee, stage, name);
@@ -178,6 +183,7 @@ Pass look_at(const Scene& of_dialect, Renderer& candidate, std::span<const Refer
   BothCaptures drawn;
   Pass pass{judge(of_dialect, candidate, references, &drawn, most_fragments), {}, {}, {}, {}};
   const Conventions conventions = candidate.info().conventions;
+  const bool foreign = is_foreign(candidate);
   const SceneByConventions by_conventions(of_dialect, conventions);
   const Scene& scene = *by_conventions;
   pass.color = drawn.candidate.planes.color;
@@ -194,17 +200,17 @@ Pass look_at(const Scene& of_dialect, Renderer& candidate, std::span<const Refer
   std::set<Stage> wrong;
   for (const Comparison& c : pass.verdict.comparisons) {
     if (referee == nullptr || !judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
-    pass.findings.push_back(Finder{scene, *referee, explain, conventions}(pass.repaired, c));
+    pass.findings.push_back(Finder{scene, *referee, explain, conventions, foreign}(pass.repaired, c));
   }
   if (referee != nullptr && lacks_fragment_records(pass.repaired))
-    look_at_worst(pass, {scene, *referee, explain, conventions}, candidate);
+    look_at_worst(pass, {scene, *referee, explain, conventions, foreign}, candidate);
   if (wrong.empty()) {
     if (!pass.findings.empty()) return pass;
     pass.first = first_finding(scene, pass.verdict, pass.repaired, references, drawn.references, explain);
     return pass;
   }
   try {
-    repair(pass, {scene, *referee, explain, conventions}, candidate, wrong);
+    repair(pass, {scene, *referee, explain, conventions, foreign}, candidate, wrong);
   } catch (const std::exception&) {  // exact cannot go on; what was found stands
   }
   return pass;
@@ -271,7 +277,7 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
   out.verdict = judge_resolved(scene, verdicts, colors, candidate, references, &drawn);
   Renderer* referee = referee_of(references);
   if (referee == nullptr) return out;
-  const Finder find{scene, *referee, explain, candidate.info().conventions};
+  const Finder find{scene, *referee, explain, candidate.info().conventions, is_foreign(candidate)};
   bool resolve_wrong = false;
   for (const Comparison& c : out.verdict.comparisons) {
     if (c.stage != Stage::resolve || !judges_alone(c) || !is_wrong(c)) continue;

@@ -16,6 +16,7 @@ struct Evidence {
   const Capture& expected;       ///< exact's are real numbers
   Renderer* referee = nullptr;   ///< that made `expected`; null: nobody to try a cause with
   Conventions conventions = {};  ///< of the candidate
+  bool foreign = false;          ///< the candidate is Profile::foreign
 };
 
 }  // namespace plumbline::check

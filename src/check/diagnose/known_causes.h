@@ -105,7 +105,8 @@ std::span<const KnownCause> fragment_causes();
 std::vector<KnownCause> all_causes();
 
 /// The referee's output of the stage with the cause in it, unrounded. The cause has `before` or `after`.
-Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer);
+Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer,
+                  const Conventions& conventions = {});
 
 /// Detects truncation of real numbers `expected` to codes. shows(): some codes are below the nearest one, and at most
 /// 1/50 as many are neither the next code down nor, within 1e-3 of a whole code, either neighbour.

@@ -15,6 +15,12 @@ namespace plumbline::check {
 
 namespace {
 
+// Roundings that a stranger's interpolation may have besides: in float from the window's origin, as llvmpipe's.
+double from_origin(const Case& c, Stage stage) { return c.foreign ? tolerance(Profile::opengl, stage).factor : 0; }
+
+// Roundings of a stranger's colours at corners, which may be products by 1/w undone, or fixed point of 16 bits.
+double corner_roundings(const Case& c) { return c.foreign ? 4 : 0; }
+
 // Compares a varying in the stage's comparator, in place of the colour.
 Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records<double>& theirs) {
   const Scene& scene = c.scene;
@@ -26,8 +32,8 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
   const double factor = tolerance(Profile::exact, stage).factor;
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
   if (stage == Stage::clip) return compare_polygons(scene, a, b, factor, is_lit(v));
-  if (stage == Stage::window) return compare_window(scene, a, b, factor, c.conventions);
-  return compare_attributes(a, b, factor);
+  if (stage == Stage::window) return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c));
+  return compare_attributes(a, b, factor, from_origin(c, stage));
 }
 
 // Whether a foreign candidate declares a tie rule, and that or its grid is another than exact's.
@@ -129,7 +135,9 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
     case Stage::clip: return add([&](double f) { return varyings(compare_polygons(c.scene, mine, theirs, f)); });
     case Stage::window:
-      return add([&](double f) { return varyings(compare_window(c.scene, mine, theirs, f, c.conventions)); });
+      return add([&](double f) {
+        return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c)));
+      });
     case Stage::coverage: {
       const bool is_told = are_sums_of(c.candidate.records, c.candidate.planes);
       if (c.foreign && is_told && knows_ties(c.scene, c.conventions))
@@ -141,8 +149,11 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
         return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
       return c.add(name, stage, worse(std::move(planes), compare_open_covered(c.candidate, theirs, c.open_coverage())));
     }
-    case Stage::depth: return add([&](double f) { return compare_depth(c.scene, mine, theirs, f, c.conventions); });
-    case Stage::attributes: return add([&](double f) { return varyings(compare_attributes(mine, theirs, f)); });
+    case Stage::depth:
+      return add(
+          [&](double f) { return compare_depth(c.scene, mine, theirs, f, c.conventions, from_origin(c, stage)); });
+    case Stage::attributes:
+      return add([&](double f) { return varyings(compare_attributes(mine, theirs, f, from_origin(c, stage))); });
     case Stage::texture: {
       const std::vector<TexelRange>* legal = c.foreign ? &made.legal.texels : nullptr;
       return add([&](double f) { return compare_texels(c.scene, mine, theirs, f, legal); });
