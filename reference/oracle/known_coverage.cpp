@@ -1,13 +1,13 @@
 // Coverage that declared conventions decide.
 //
 // For a renderer that declares its grid and its tie rule (settles_ties()), coverage is open only where float arithmetic
-// decides to which grid point a corner is snapped. Every such renderer snaps a corner to the same grid point where the
-// corner's position in double is farther from the middle between two grid points than float arithmetic may displace it
-// (corner_displacement()). Where this holds for all three corners of a triangle, the sample's edge functions are known,
-// and the tie rule settles those that are 0.
+// decides to which grid point a corner is snapped: where the corner's position in double is nearer to the middle between
+// two grid points than float arithmetic may displace it (corner_displacement()). Coverage is known where all grid points
+// of all three corners give the same answer; the tie rule settles edge functions that are 0.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "reference/arithmetic/project.h"
 #include "reference/oracle/pixel_hit.h"
@@ -18,14 +18,31 @@ namespace {
 
 using C = Conventions;
 
-/// The grid point to which the corner is snapped, from the window's lower left corner [steps of the grid]; NaN where it
-/// is not certain.
-glm::dvec2 place_of(const Projected& scene, const Corner& corner, double steps) {
+/// Grid points to which a corner may be snapped, from the window's lower left corner [steps of the grid]; none: any.
+struct GridPoints {
+  std::array<glm::dvec2, 4> at;
+  std::size_t count = 0;
+};
+GridPoints grid_points(const Projected& scene, const Corner& corner, double steps) {
   const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height), off = steps * corner_displacement(scene, corner);
-  const glm::dvec2 at = steps * (glm::dvec2(corner.v) / corner.v.z + scene.sample + half), place = glm::round(at);
-  const glm::dvec2 left = 0.5 - glm::abs(at - place);  // distance to the middle between two grid points
-  if (left.x > off.x && left.y > off.y) return place;
-  return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+  const glm::dvec2 at = steps * (glm::dvec2(corner.v) / corner.v.z + scene.sample + half);
+  GridPoints out;
+  if (!(off.x < 0.5 && off.y < 0.5)) return out;
+  const glm::dvec2 low = glm::round(at - off), high = glm::round(at + off);
+  for (double y = low.y; y <= high.y; ++y) {
+    for (double x = low.x; x <= high.x; ++x) out.at[out.count++] = {x, y};
+  }
+  return out;
+}
+
+bool covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sample, C::TieRule rule) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 along = sign * (corners[(i + 1) % 3] - corners[i]), from = sample - corners[i];
+    const glm::dvec2 inward(-along.y, along.x);
+    const double e = glm::dot(inward, from);
+    if (e < 0 || (e == 0 && !owns_ties(rule, inward))) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -43,18 +60,20 @@ std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, in
   if (t.flat || t.cut || t.thin || !t.facing_kept || !settles_ties(c)) return std::nullopt;
   const double steps = std::ldexp(1.0, c.subpixel_bits);
   const glm::dvec2 sample = steps * (glm::dvec2(px, py) + 0.5 + scene.sample);
-  std::array<glm::dvec2, 3> place;
+  std::array<GridPoints, 3> points;
   for (std::size_t i = 0; i < 3; ++i) {
-    place[i] = place_of(scene, scene.corners[t.corner[i]], steps);
-    if (std::isnan(place[i].x)) return std::nullopt;
+    points[i] = grid_points(scene, scene.corners[t.corner[i]], steps);
+    if (points[i].count == 0) return std::nullopt;
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec2 along = t.sign * (place[(i + 1) % 3] - place[i]), from = sample - place[i];
-    const glm::dvec2 inward(-along.y, along.x);
-    const double e = glm::dot(inward, from);
-    if (e < 0 || (e == 0 && !owns_ties(c.tie_rule, inward))) return false;
+  std::optional<bool> known;
+  for (std::size_t n = 0; n < points[0].count * points[1].count * points[2].count; ++n) {
+    const std::size_t i = n % points[0].count, k = n / points[0].count % points[1].count,
+                      l = n / points[0].count / points[1].count;
+    const bool covered = covers({points[0].at[i], points[1].at[k], points[2].at[l]}, t.sign, sample, c.tie_rule);
+    if (known && *known != covered) return std::nullopt;
+    known = covered;
   }
-  return true;
+  return known;
 }
 
 void settle_coverage(C::TieRule tie_rule, std::vector<PixelHit>& hits) {

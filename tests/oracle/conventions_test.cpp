@@ -66,6 +66,25 @@ TEST(OracleConventions, ACoarserGridLeavesMorePixelsOpen) {
   EXPECT_LE(without, 1u) << "no centre lies on an edge";
 }
 
+// A corner half way between two places of the grid leaves open what it decides, and no more.
+TEST(OracleConventions, AnUncertainCornerLeavesOpenWhatItDecides) {
+  const Scene scene =
+      window_scene({{glm::vec3(10.5f, 10.5f, 0.5f), {20.5f + 1.0f / 512, 13.5f, 0.5f}, {13, 25, 0.5f}}});
+  using enum C::TieRule;
+  for (const C::TieRule rule : {left_bottom, left_top, right_bottom, right_top, inclusive, exclusive}) {
+    C declared;
+    declared.tie_rule = rule;
+    const Legal of = legal(scene, declared);
+    EXPECT_EQ(of.certain(10, 10), of.possible(10, 10)) << "at the corner that is certain";
+    // The other corner is the sample, or 1/256 pixel to the right of it.
+    if (rule == inclusive) {
+      EXPECT_EQ(of.certain(20, 13), 1u);
+    } else if (rule == exclusive) {
+      EXPECT_NE(of.certain(20, 13), of.possible(20, 13));
+    }
+  }
+}
+
 // A sample at the lower left corner sees what the centre sees of a picture half a pixel farther.
 TEST(OracleConventions, ASampleIsAPlace) {
   std::vector<std::array<glm::vec3, 3>> moved = kOne;
