@@ -53,7 +53,8 @@ class RunComparison {
   void strictly(Run mine, Run theirs, std::size_t first) {
     if (mine.size() != theirs.size()) {
       const Run more = mine.size() > theirs.size() ? mine : theirs;
-      return meter_.missing(more.size(), {-1, -1, static_cast<std::int64_t>(more.front().primitive), "triangle", true});
+      return meter_.missing(more.size(), {-1, -1, static_cast<std::int64_t>(more.front().primitive), "triangles", true},
+                            mine.size(), theirs.size());
     }
     for (std::size_t i = 0; i < mine.size(); ++i) {
       meter_.value(mine[i].front == theirs[i].front ? 0 : kInfinite, 0, at(first + i, "front"), mine[i].front,

@@ -279,9 +279,8 @@ std::vector<std::string> worst_record(const Evidence& e, const JudgeId& judge, c
   if (!m.mismatch.empty()) return {m.mismatch};
   const Place& place = m.worst.place;
   if (m.max_difference > 0)
-    out.push_back(fmt::format("worst: {}: {:.9g}, {} {:.9g}, {:.4g} {} apart, tolerance {:.4g}", to_string(place),
-                              m.worst.candidate, judges_legality(judge, e.stage) ? "nearest legal" : "expected",
-                              m.worst.reference, m.worst.difference, m.unit, m.worst.tolerance));
+    out.push_back("worst: " +
+                  to_string(m.worst, judges_legality(judge, e.stage) ? "nearest legal" : "expected", m.unit));
   const RecordPrinter printer(e);
   const auto record = static_cast<std::uint32_t>(std::max<std::int64_t>(place.record, 0));
   switch (e.stage) {

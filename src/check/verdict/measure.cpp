@@ -76,11 +76,18 @@ void Meter::item() {
   why_.clear();
 }
 
-void Meter::missing(std::uint64_t items, const Place& place) {
+void Meter::missing(std::uint64_t items, const Place& place, std::size_t candidate, std::size_t reference) {
   for (std::uint64_t i = 0; i < items; ++i) {
-    value(kInfinite, 0, place, 0, 0);
+    value(kInfinite, 0, place, static_cast<double>(candidate), static_cast<double>(reference));
     item();
   }
+}
+
+std::string to_string(const Worst& w, std::string_view expected, std::string_view unit) {
+  std::string out = fmt::format("{}: {:.9g}, {} {:.9g}", to_string(w.place), w.candidate, expected, w.reference);
+  if (std::isfinite(w.difference))
+    out += fmt::format(", {:.4g} {} apart, tolerance {:.4g}", w.difference, unit, w.tolerance);
+  return out;
 }
 
 Measurement mismatch(std::string unit, std::string why, std::uint64_t items) {

@@ -35,6 +35,9 @@ struct Worst {
   double tolerance = 0;   ///< likewise
 };
 
+/// "PLACE: 0.5, EXPECTED 0.25, 4 UNIT apart, tolerance 1"; of an infinite difference the numbers alone.
+std::string to_string(const Worst& worst, std::string_view expected, std::string_view unit);
+
 struct Measurement {
   std::string unit;
   std::uint64_t items = 0;      ///< pixels or records compared
@@ -76,8 +79,8 @@ class Meter {
   void ambiguous() { item_ambiguous_ = true; }
   /// Ends an item that has got its values.
   void item();
-  /// Counts whole items as different, such as missing records.
-  void missing(std::uint64_t items, const Place& place);
+  /// Counts whole items as different, such as missing records. `candidate`, `reference`: how many each side has.
+  void missing(std::uint64_t items, const Place& place, std::size_t candidate = 0, std::size_t reference = 0);
   Measurement done() { return std::move(m_); }
 
  private:

@@ -96,9 +96,7 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
     if (!first->note.empty()) out += "; " + first->note;
     if (w.difference > 0) {
       const bool legal = check::judges_legality(first->judge, first->stage);
-      out += fmt::format("\n  worst: {}: {:.9g}, {} {:.9g}, {:.4g} {} apart, tolerance {:.4g}",
-                         check::to_string(w.place), w.candidate, legal ? "nearest legal" : "the reference", w.reference,
-                         w.difference, first->measurement.unit, w.tolerance);
+      out += "\n  worst: " + check::to_string(w, legal ? "nearest legal" : "the reference", first->measurement.unit);
     }
     out += '\n';
   }

@@ -159,6 +159,16 @@ TEST(Meter, HistogramSumsToTheItems) {
   EXPECT_EQ(histogram_sum(m), m.items);
 }
 
+TEST(Meter, WhatIsInfinitelyApartIsToldByItsNumbers) {
+  Meter meter("u");
+  meter.missing(1, {-1, -1, 7, "triangles", true}, 0, 2);
+  EXPECT_EQ(to_string(meter.done().worst, "expected", "u"), "primitive 7 triangles: 0, expected 2");
+  Meter other("u");
+  other.value(4, 1, {3, 2, -1, "z"}, 0.5, 0.25);
+  other.item();
+  EXPECT_EQ(to_string(other.done().worst, "expected", "u"), "pixel 3,2 z: 0.5, expected 0.25, 4 u apart, tolerance 1");
+}
+
 TEST(Meter, MissingItemsAllDiffer) {
   Meter meter("u");
   meter.missing(0, {});
