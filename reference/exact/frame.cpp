@@ -75,7 +75,7 @@ glm::vec4 kept_color(ColorFormat format, glm::dvec4 color) {
   return glm::vec4(format == ColorFormat::rgba32f ? color : glm::clamp(color, 0.0, 1.0));
 }
 
-/// Which fragments passed, as far as the winners `id` tell: those of the winning primitive at each pixel.
+/// Fragments that passed, as far as the winners `id` tell: those of the winning primitive at each pixel.
 std::vector<Drawn> drawn_by_winners(const Scene& scene, const Records<double>& records, const Plane<std::int32_t>& id) {
   const FrameFormat& frame = scene.frame;
   require_size("planes.id", id.size(), static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));

@@ -326,7 +326,7 @@ struct DrawRange {
 
 /// One range per draw.
 std::vector<DrawRange> draw_ranges(const Scene& scene);
-/// The same into `out`, whose memory is reused.
+/// Overload that writes into `out`, whose memory is reused.
 void draw_ranges(const Scene& scene, std::vector<DrawRange>& out);
 
 /// The largest code of a colour channel (2^8-1, 2^12-1, 2^16-1); 0 for rgba32f.

@@ -23,7 +23,7 @@ enum class Outcome {
 inline constexpr std::size_t kOutcomes = 7;
 std::string_view name_of(Outcome outcome);
 
-/// What one check of a scene, or one diagnosis, names.
+/// Names that one check of a scene, or one diagnosis, gives.
 struct Named {
   std::string first;  ///< stage, "picture", "ended", or "none"
   std::string by;     ///< reference and stage of the first row that fails
@@ -66,7 +66,7 @@ std::vector<Affected> affected(const SceneHashes& as_it_is, const SceneHashes& c
 /// The stage that plumb check announces, of each scene that fails, from its JSON; the first row's where it announces
 /// none (a crash), and `picture` where no other row fails.
 std::map<std::string, Named> named_by_check(const std::string& json);
-/// The same of plumb diagnose's JSON, which has one scene.
+/// Names in plumb diagnose's JSON, which has one scene.
 Named named_by_diagnose(const std::string& json);
 
 class Judge {

@@ -1,4 +1,4 @@
-// What plumb check and plumb diagnose name, from their JSON, and which scenes' hashes differ.
+// Names that plumb check and plumb diagnose give, from their JSON, and scenes whose hashes differ.
 #include <algorithm>
 #include <array>
 

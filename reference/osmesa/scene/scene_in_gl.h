@@ -53,7 +53,7 @@ class SceneInGl {
   void draw_ids(std::size_t draw) const;  ///< each primitive in the colour whose four bytes are its number + 1
   void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< draw_ids() of one primitive
   void draw_weights(std::size_t draw) const;  ///< each primitive in the colour (1, id_weight_part 0, 1, 2)
-  // The same for `these` alone.
+  // Overload for `these` alone.
   void draw_primitives(std::size_t draw, Primitives these) const;
   void draw_without_colors(std::size_t draw, Primitives these) const;
   void draw_weights(std::size_t draw, Primitives these) const;

@@ -32,7 +32,7 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& file, st
 std::chrono::sys_days day_of(const std::string& text);
 std::string to_string(std::chrono::sys_days day);
 
-/// What became of an expectation whose scene and reference were asked.
+/// Fate of an expectation whose scene and reference were asked.
 enum class Settlement {
   occurred,  ///< its row is now `expected`, and says why
   expired,   ///< it occurred after its last day: the row stays a failure

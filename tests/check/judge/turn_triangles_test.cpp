@@ -63,7 +63,7 @@ TEST(TurnTriangles, SeesWrongPositionsByTheOtherNumbers) {
   expect_in_order(mine, theirs);
 }
 
-// Of a triangle whose corners no number tells apart, the usual turn; without one, none.
+// Triangle whose corners no number tells apart: it takes the usual turn; without one, none.
 TEST(TurnTriangles, TakesTheUsualTurnWhereNoneIsBetter) {
   Records<double> theirs = two_triangles();
   for (WindowVertex<double>& v : theirs.triangles[1].v) v = theirs.triangles[1].v[0];
