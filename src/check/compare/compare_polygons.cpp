@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "check/bounds/units.h"
+#include "check/compare/clip_distances.h"
 #include "check/compare/compare_records.h"
+#include "check/compare/join_polygons.h"
 #include "check/compare/legal_polygon.h"
 #include "check/compare/matched_by_primitive.h"
 #include "scene/draw_index.h"
@@ -18,7 +20,8 @@ namespace plumbline::check {
 
 namespace {
 
-using Vec8 = std::array<double, 8>;  // clip position over the scale, and colour
+using Vertices = std::span<const ClipVertex<double>>;
+using PolygonRun = std::span<const ClipPolygon>;
 
 Corners corners_of(const DrawIndex& draws, std::uint32_t primitive, const Records<double>& r, bool flat_applies) {
   const glm::uvec3 corners = draws.corners(primitive);
@@ -38,63 +41,15 @@ Corners corners_of(const DrawIndex& draws, std::uint32_t primitive, const Record
   return out;
 }
 
-Vec8 joined(const Vec4<double>& p, const Vec4<double>& color, const Corners& c) {
-  const double s = c.scale, k = c.color_scale;
-  return {p.x / s, p.y / s, p.z / s, p.w / s, color.r / k, color.g / k, color.b / k, color.a / k};
-}
-
-double dot(const Vec8& a, const Vec8& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 8; ++i) sum += a[i] * b[i];
-  return sum;
-}
-Vec8 minus(const Vec8& a, const Vec8& b, double times = 1) {
-  Vec8 out;
-  for (std::size_t i = 0; i < 8; ++i) out[i] = a[i] - times * b[i];
-  return out;
-}
-
-double largest(const Vec8& v) {
-  double out = 0;
-  for (double value : v) out = std::max(out, std::isfinite(value) ? std::abs(value) : kInfinite);
-  return out;
-}
-
-// How far a vertex (position and colour together) is from being a weighted mean of the three corners: what remains of
-// it after the triangle's two directions are taken out (Gram-Schmidt), largest component.
-double distance_from_triangle(const ClipVertex<double>& v, const Corners& c) {
-  const Vec8 origin = joined(c.p_clip[0], c.color[0], c);
-  Vec8 e1 = minus(joined(c.p_clip[1], c.color[1], c), origin);
-  Vec8 e2 = minus(joined(c.p_clip[2], c.color[2], c), origin);
-  if (dot(e2, e2) > dot(e1, e1)) std::swap(e1, e2);
-  if (dot(e1, e1) > 0) e2 = minus(e2, e1, dot(e1, e2) / dot(e1, e1));
-  Vec8 rest = minus(joined(v.p_clip, v.color, c), origin);
-  if (dot(e1, e1) > 0) rest = minus(rest, e1, dot(rest, e1) / dot(e1, e1));
-  if (dot(e2, e2) > 1e-24 * dot(e1, e1)) rest = minus(rest, e2, dot(rest, e2) / dot(e2, e2));
-  return largest(rest);
-}
-
-// Distance from the line through two corners, likewise.
-double distance_from_edge(const ClipVertex<double>& v, const Corners& c, std::size_t i) {
-  const std::size_t j = (i + 1) % 3;
-  const Vec8 origin = joined(c.p_clip[i], c.color[i], c);
-  const Vec8 e = minus(joined(c.p_clip[j], c.color[j], c), origin);
-  Vec8 rest = minus(joined(v.p_clip, v.color, c), origin);
-  if (dot(e, e) > 0) rest = minus(rest, e, dot(rest, e) / dot(e, e));
-  return largest(rest);
-}
-
 // The planes whose cuts rounding decides about: a corner lies on one, or an edge goes through the meeting of several,
 // as the polygon has it.
-void open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, double tolerance,
-                 std::array<bool, 6>& open) {
+void open_planes(const Corners& c, Vertices polygon, double tolerance, std::array<bool, 6>& open) {
   for (std::size_t p = 0; p < c.planes; ++p) {
     for (const Vec4<double>& corner : c.p_clip) open[p] |= std::abs(distances(corner)[p]) <= tolerance;
     for (const ClipVertex<double>& v : polygon) {
       std::size_t planes = 0;
       for (std::size_t q = 0; q < c.planes; ++q) planes += on_plane(v, q, tolerance) ? 1 : 0;
-      double to_edge = kInfinite;
-      for (std::size_t i = 0; i < 3; ++i) to_edge = std::min(to_edge, distance_from_edge(v, c, i));
+      const double to_edge = distance_from_edges(v, c);
       // Three planes meet in a corner of the view volume, its four sides in the eye: a triangle's plane may pass there.
       const bool open_meeting = planes > 2 || (planes > 1 && to_edge <= tolerance / c.scale);
       open[p] |= open_meeting && on_plane(v, p, tolerance);
@@ -102,28 +57,34 @@ void open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, 
   }
 }
 
-std::span<const ClipVertex<double>> vertices_of(const ClipPolygon& polygon, const Records<double>& r) {
+Vertices vertices_of(const ClipPolygon& polygon, const Records<double>& r) {
   return {r.polygons.vertices.data() + polygon.first, polygon.count};
 }
 
-// Vertices that rounding may make: of the triangle, on a plane that cuts them or a corner, and nowhere outside.
+// A vertex of the triangle, and nowhere outside, but for rounding.
 template <class At>
-void within_rounding(Meter& meter, std::span<const ClipVertex<double>> polygon, const Corners& corners, double factor,
-                     const At& at) {
+void within_triangle(Meter& meter, const ClipVertex<double>& v, const Corners& corners, double factor, const At& at) {
+  meter.value(distance_from_triangle(v, corners) / u, factor, at("off its triangle"), 0, 0);
+  const auto d = distances(v.p_clip);
+  for (std::size_t p = 0; p < corners.planes; ++p)
+    meter.value(std::max(-d[p], 0.0) / (u * corners.scale), factor, at("outside a plane"), d[p], 0);
+}
+
+// Vertices that rounding may make: within_triangle(), on a plane that cuts them or a corner.
+template <class At>
+void within_rounding(Meter& meter, Vertices polygon, const Corners& corners, double factor, const At& at) {
   for (const ClipVertex<double>& v : polygon) {
-    meter.value(distance_from_triangle(v, corners) / u, factor, at("off its triangle"), 0, 0);
+    within_triangle(meter, v, corners, factor, at);
     const auto d = distances(v.p_clip);
     double nearest = kInfinite;
     int planes = 0;
     for (std::size_t p = 0; p < corners.planes; ++p) {
-      meter.value(std::max(-d[p], 0.0) / (u * corners.scale), factor, at("outside a plane"), d[p], 0);
       nearest = std::min(nearest, std::abs(d[p]));
       planes += std::abs(d[p]) <= factor * u * corners.scale ? 1 : 0;
     }
     if (v.cut) {
       meter.value(nearest / (u * corners.scale), factor, at("off its plane"), nearest, 0);
-      double to_edge = kInfinite;
-      for (std::size_t i = 0; i < 3; ++i) to_edge = std::min(to_edge, distance_from_edge(v, corners, i));
+      const double to_edge = distance_from_edges(v, corners);
       if (planes < 2) meter.value(to_edge / u, factor, at("off its edge"), to_edge, 0);
     } else {
       const bool corner = std::ranges::find(corners.p_clip, v.p_clip) != corners.p_clip.end();
@@ -142,8 +103,7 @@ void drop_coincident(std::vector<ClipVertex<double>>& polygon, const Corners& co
   };
   for (std::size_t i = 0; i < polygon.size() && polygon.size() > 1;) {
     const ClipVertex<double>&v = polygon[i], &next = polygon[(i + 1) % polygon.size()];
-    const Vec8 apart = minus(joined(v.p_clip, v.color, corners), joined(next.p_clip, next.color, corners));
-    const bool coincide = largest(apart) <= factor * u;
+    const bool coincide = largest_difference(v, next, corners) <= factor * u;
     if (coincide && (v.cut || next.cut) && meet_at(v.cut ? v : next)) {
       polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(v.cut ? i : (i + 1) % polygon.size()));
     } else {
@@ -153,17 +113,13 @@ void drop_coincident(std::vector<ClipVertex<double>>& polygon, const Corners& co
 }
 
 // Cyclic shift of `mine` that brings its corners nearest to those of `theirs`, which has as many.
-std::size_t turn_of(std::span<const ClipVertex<double>> mine, std::span<const ClipVertex<double>> theirs,
-                    const Corners& corners) {
+std::size_t turn_of(Vertices mine, Vertices theirs, const Corners& corners) {
   std::size_t best = 0;
   double least = kInfinite;
   for (std::size_t turn = 0; turn < mine.size(); ++turn) {
     double sum = 0;
-    for (std::size_t i = 0; i < mine.size(); ++i) {
-      const ClipVertex<double>&v = mine[(i + turn) % mine.size()], &w = theirs[i];
-      const Vec8 apart = minus(joined(v.p_clip, v.color, corners), joined(w.p_clip, w.color, corners));
-      sum += std::sqrt(dot(apart, apart));
-    }
+    for (std::size_t i = 0; i < mine.size(); ++i)
+      sum += distance_between(mine[(i + turn) % mine.size()], theirs[i], corners);
     if (sum < least) best = turn;
     least = std::min(least, sum);
   }
@@ -171,12 +127,11 @@ std::size_t turn_of(std::span<const ClipVertex<double>> mine, std::span<const Cl
 }
 
 // `loosely`: vertices on planes whose cuts rounding decides about are held to the triangle and the planes alone.
-void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, const Records<double>& candidate,
-                     const Records<double>& reference, const Corners& corners, double factor, bool loosely) {
-  const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(a.primitive), field, true}; };
+template <class At>
+void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const Corners& corners, double factor,
+                     bool loosely, const At& at) {
   const double unit = u * corners.scale;
   std::vector<ClipVertex<double>> mine, theirs;  // without those that rounding decides about, where the numbers differ
-  const auto all_mine = vertices_of(a, candidate), all_theirs = vertices_of(b, reference);
   std::array<bool, 6> open{};
   if (loosely) {
     for (const auto& polygon : {all_mine, all_theirs}) open_planes(corners, polygon, factor * unit, open);
@@ -194,7 +149,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   };
   std::copy_if(all_mine.begin(), all_mine.end(), std::back_inserter(mine), settled);
   std::copy_if(all_theirs.begin(), all_theirs.end(), std::back_inserter(theirs), settled);
-  if (a.count > 2 && (!loosely || mine.size() != theirs.size())) {
+  if (all_mine.size() > 2 && (!loosely || mine.size() != theirs.size())) {
     std::vector<ClipVertex<double>> fewer_mine = mine, fewer_theirs = theirs;
     drop_coincident(fewer_mine, corners, factor, loosely ? 2 : 1);
     drop_coincident(fewer_theirs, corners, factor, loosely ? 2 : 1);
@@ -205,16 +160,17 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   // Where cuts are open, so are the corners that they make; the checks above have held `mine` to its limits.
   if (mine.size() != theirs.size() && std::ranges::find(open, true) != open.end()) return meter.ambiguous();
   if (mine.size() != theirs.size()) {
-    meter.value(kInfinite, 0, at("vertices"), a.count, b.count);
+    meter.value(kInfinite, 0, at("vertices"), static_cast<double>(all_mine.size()),
+                static_cast<double>(all_theirs.size()));
     return;
   }
   if (loosely) meter.ambiguous();
   // A polygon may begin at any of its corners; a line runs from its first to its last.
-  if (a.count > 2)
+  if (all_mine.size() > 2)
     std::rotate(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(turn_of(mine, theirs, corners)), mine.end());
   for (std::size_t i = 0; i < mine.size(); ++i) {
     const ClipVertex<double>&v = mine[i], &w = theirs[i];
-    if (v.cut != w.cut && a.count < 3 && may_end_in(v, corners, i, factor * unit)) {
+    if (v.cut != w.cut && all_mine.size() < 3 && may_end_in(v, corners, i, factor * unit)) {
       meter.ambiguous();
       within_rounding(meter, std::span(&v, 1), corners, factor, at);
       meter.value(distance_from_edge(v, corners, 0) / u, factor, at("off its edge"), 0, 0);
@@ -248,7 +204,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   }
 }
 
-bool is_cut(std::span<const ClipVertex<double>> polygon) {
+bool is_cut(Vertices polygon) {
   return std::ranges::any_of(polygon, [](const ClipVertex<double>& v) { return v.cut; });
 }
 
@@ -269,14 +225,40 @@ bool fails(auto compare_strictly) {
   return trial.done().differing > 0;
 }
 
-// visit(mine, theirs) of each primitive's polygon, null on the side that lacks it.
-template <class Visit>
-void each_polygon(const Records<double>& candidate, const Records<double>& reference, Visit visit) {
-  using Run = std::span<const ClipPolygon>;
-  matched_by_primitive(Run(candidate.polygons.polygons), Run(reference.polygons.polygons), [&](Run mine, Run theirs) {
-    for (std::size_t i = 0; i < std::max(mine.size(), theirs.size()); ++i)
-      visit(i < mine.size() ? &mine[i] : nullptr, i < theirs.size() ? &theirs[i] : nullptr);
-  });
+// The polygons of one primitive as one. A part's vertices may be off by `factor` u, and so apart by twice as much from
+// those of another part.
+class WholePolygon {
+ public:
+  WholePolygon(PolygonRun run, const Records<double>& records, const Corners& corners, double factor)
+      : corners_(corners), apart_(2 * factor * u) {
+    for (const ClipPolygon& polygon : run) parts_.push_back(vertices_of(polygon, records));
+    if (parts_.size() > 1) joined_ = join_polygons(parts_, corners_, apart_);
+  }
+  std::span<const Vertices> parts() const { return parts_; }
+  bool is_one() const { return parts_.size() < 2 || !joined_.empty(); }
+  Vertices vertices() const { return parts_.size() == 1 ? parts_.front() : Vertices(joined_); }
+  // Whether rounding does not make one of several vertices, nor of a polygon a line.
+  bool is_distinct() const {
+    return join_polygons(std::array{vertices()}, corners_, apart_).size() == vertices().size();
+  }
+
+ private:
+  const Corners& corners_;
+  double apart_;
+  std::vector<Vertices> parts_;
+  std::vector<ClipVertex<double>> joined_;
+};
+
+// Parts of a polygon some of whose corners rounding makes one: where each corner of it should be, one of them is.
+template <class At>
+void compare_parts(Meter& meter, std::span<const Vertices> parts, Vertices whole, const Corners& corners, double factor,
+                   const At& at) {
+  meter.ambiguous();
+  for (const ClipVertex<double>& v : whole) {
+    double least = kInfinite;
+    for (const Vertices part : parts) least = std::min(least, distance_to_polygon(v.p_clip, part));
+    meter.value(least / (u * corners.scale), 2 * factor, at("cut off"), 0, 0);
+  }
 }
 
 }  // namespace
@@ -295,43 +277,55 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
     return mismatch("u", "not one vertex and colour for each of the scene's", reference.polygons.polygons.size());
   }
   Meter meter("u");
-  each_polygon(candidate, reference, [&](const ClipPolygon* a, const ClipPolygon* b) {
-    const std::uint32_t primitive = a != nullptr ? a->primitive : b->primitive;
+  const auto compare_run = [&](PolygonRun mine, PolygonRun theirs) {
+    const std::uint32_t primitive = (mine.empty() ? theirs : mine).front().primitive;
     const Corners corners = corners_of(draws, primitive, candidate, flat_applies);
-    if (a != nullptr && b != nullptr) {
+    const auto at = [&](const char* field) { return Place{-1, -1, primitive, field, true}; };
+    const WholePolygon a(mine, candidate, corners, factor), b(theirs, reference, corners, factor);
+    for (const Vertices part : a.parts()) {
+      for (const ClipVertex<double>& v : part) {
+        if (a.parts().size() > 1 && v.cut) within_triangle(meter, v, corners, factor, at);
+      }
+    }
+    if (!mine.empty() && !theirs.empty() && !(a.is_one() && b.is_one())) {
+      if (b.is_one() && !b.is_distinct()) {
+        compare_parts(meter, a.parts(), b.vertices(), corners, factor, at);
+      } else {
+        meter.value(kInfinite, 0, at("polygons that do not join"), static_cast<double>(mine.size()),
+                    static_cast<double>(theirs.size()));
+      }
+    } else if (!mine.empty() && !theirs.empty()) {
       const auto compare = [&](Meter& to, bool loosely) {
-        compare_polygon(to, *a, *b, candidate, reference, corners, factor, loosely);
+        compare_polygon(to, a.vertices(), b.vertices(), corners, factor, loosely, at);
       };
       // Vertices of the same number may be others: of a triangle that lies in a plane, the order of cuts decides.
-      const bool loosely = a->count != b->count || (a->count > 2 && is_cut(vertices_of(*a, candidate)) &&
-                                                    may_cut_otherwise(corners, factor) && fails(compare));
+      const std::size_t count = a.vertices().size();
+      const bool loosely = count != b.vertices().size() ||
+                           (count > 2 && is_cut(a.vertices()) && may_cut_otherwise(corners, factor) && fails(compare));
       compare(meter, loosely);
     } else {
-      const auto at = [&](const char* field) { return Place{-1, -1, primitive, field, true}; };
       const double tolerance = factor * u * corners.scale;
       const std::vector<ClipVertex<double>> widest =
-          a != nullptr ? clipped(corners, -tolerance) : std::vector<ClipVertex<double>>();
+          mine.empty() ? std::vector<ClipVertex<double>>() : clipped(corners, -tolerance);
       if (!needs_no_cut(corners) &&
-          may_vanish(a != nullptr ? std::span(widest) : vertices_of(*b, reference), corners.planes, tolerance)) {
+          may_vanish(mine.empty() ? b.vertices() : std::span(widest), corners.planes, tolerance)) {
         meter.ambiguous();
-        if (a != nullptr) within_rounding(meter, vertices_of(*a, candidate), corners, factor, at);
+        within_rounding(meter, a.vertices(), corners, factor, at);
       } else {
-        meter.value(kInfinite, 0, at(a == nullptr ? "polygon lacking" : "polygon extra"), 0, 0);
+        meter.value(kInfinite, 0, at(mine.empty() ? "polygon lacking" : "polygon extra"), 0, 0);
       }
     }
     meter.item();
-  });
+  };
+  matched_by_primitive(PolygonRun(candidate.polygons.polygons), PolygonRun(reference.polygons.polygons), compare_run);
   return meter.done();
 }
 
 Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
                                       double factor) {
   Meter meter("u");
-  each_polygon(candidate, reference, [&](const ClipPolygon* a, const ClipPolygon* b) {
-    const ClipPolygon& any = a != nullptr ? *a : *b;
-    const auto at = [&](const char* field) {
-      return Place{-1, -1, static_cast<std::int64_t>(any.primitive), field, true};
-    };
+  const auto compare = [&](std::uint32_t primitive, const ClipPolygon* a, const ClipPolygon* b) {
+    const auto at = [&](const char* field) { return Place{-1, -1, primitive, field, true}; };
     if (a == nullptr || b == nullptr) {
       meter.value(kInfinite, 0, at(a == nullptr ? "polygon lacking" : "polygon extra"), 0, 0);
     } else if (a->count != b->count) {
@@ -356,7 +350,14 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
       meter.value(least, factor, at("p_clip"), 0, 0);
     }
     meter.item();
-  });
+  };
+  matched_by_primitive(PolygonRun(candidate.polygons.polygons), PolygonRun(reference.polygons.polygons),
+                       [&](PolygonRun mine, PolygonRun theirs) {
+                         const std::uint32_t primitive = (mine.empty() ? theirs : mine).front().primitive;
+                         for (std::size_t i = 0; i < std::max(mine.size(), theirs.size()); ++i)
+                           compare(primitive, i < mine.size() ? &mine[i] : nullptr,
+                                   i < theirs.size() ? &theirs[i] : nullptr);
+                       });
   return meter.done();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "check/bounds/units.h"
 #include "check/compare/matched_by_primitive.h"
@@ -9,14 +10,14 @@
 
 namespace plumbline::check {
 
-namespace {
-
 // A polygon's corner in the window. `error`: of p_win, per coordinate.
-struct Corner {
+struct WindowCorner {
   WindowVertex<double> vertex;
   Vec4<double> back_color;
   Vec3<double> error;
 };
+
+namespace {
 
 // Box in which a corner may lie: its centre and half its size.
 struct Spot {
@@ -24,7 +25,7 @@ struct Spot {
 };
 
 // Snapped positions within the error of p_win.
-Spot snapped_spot(const Corner& c) {
+Spot snapped_spot(const WindowCorner& c) {
   Spot out{};
   for (int k = 0; k < 2; ++k) {
     const double at = c.vertex.p_win[k] - 0.5, error = c.error[k];
@@ -35,7 +36,7 @@ Spot snapped_spot(const Corner& c) {
   return out;
 }
 
-Spot unsnapped_spot(const Corner& c) { return {Vec2<double>(c.vertex.p_win), Vec2<double>(c.error)}; }
+Spot unsnapped_spot(const WindowCorner& c) { return {Vec2<double>(c.vertex.p_win), Vec2<double>(c.error)}; }
 
 // Interval of twice the signed area.
 struct Area {
@@ -61,17 +62,17 @@ Area area_of(std::span<const Spot> spots, double rounding) {
 }
 
 // Products of snapped coordinates are integers: sums below 2^52 are exact in double.
-Area snapped_area(std::span<const Corner> corners) {
+Area snapped_area(std::span<const WindowCorner> corners) {
   std::vector<Spot> spots;
-  for (const Corner& c : corners) spots.push_back(snapped_spot(c));
+  for (const WindowCorner& c : corners) spots.push_back(snapped_spot(c));
   const Area exact = area_of(spots, 0);
   return std::max(std::abs(exact.least), std::abs(exact.most)) < 0x1p48 ? exact : area_of(spots, 0x1p-48);
 }
 
 // In float: two differences, a product and a sum round, 4 u of the terms.
-Area unsnapped_area(std::span<const Corner> corners) {
+Area unsnapped_area(std::span<const WindowCorner> corners) {
   std::vector<Spot> spots;
-  for (const Corner& c : corners) spots.push_back(unsnapped_spot(c));
+  for (const WindowCorner& c : corners) spots.push_back(unsnapped_spot(c));
   return area_of(spots, 4 * u);
 }
 
@@ -79,8 +80,8 @@ bool is_culled(Cull cull, bool front) { return cull == (front ? Cull::front : Cu
 
 bool is_filled(const Draw& draw) { return draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill; }
 
-WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width, const Corner& a, const Corner& b,
-                       const Corner& c) {
+WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width, const WindowCorner& a,
+                       const WindowCorner& b, const WindowCorner& c) {
   WindowAnswer out;
   out.record.v = {a.vertex, b.vertex, c.vertex};
   out.record.primitive = primitive;
@@ -91,10 +92,10 @@ WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width
 }
 
 // Each triangle of the fan is faced, and culled, by itself.
-std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const Corner> corners) {
+std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const WindowCorner> corners) {
   std::vector<WindowAnswer> out;
   for (std::size_t i = 2; i < corners.size(); ++i) {
-    const std::array<Corner, 3> three = {corners[i - 1], corners[i], corners[0]};
+    const std::array<WindowCorner, 3> three = {corners[i - 1], corners[i], corners[0]};
     const Area area = snapped_area(three);
     WindowAnswer answer = answer_of(primitive, 3, 1, three[0], three[1], three[2]);
     const bool front = area.most > 0, back = area.least < 0;
@@ -108,11 +109,11 @@ std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::sp
 
 // Edges or corners of a polygon of one facing.
 std::vector<WindowAnswer> outline(const Draw& draw, std::uint32_t primitive, bool front,
-                                  std::span<const Corner> corners) {
+                                  std::span<const WindowCorner> corners) {
   std::vector<WindowAnswer> out;
   const bool lines = (front ? draw.front_mode : draw.back_mode) == PolygonMode::line;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Corner &before = corners[(i + corners.size() - 1) % corners.size()], &at = corners[i];
+    const WindowCorner &before = corners[(i + corners.size() - 1) % corners.size()], &at = corners[i];
     WindowAnswer answer = lines ? answer_of(primitive, 2, draw.line_width, before, at, at)
                                 : answer_of(primitive, 1, draw.point_size, at, at, at);
     answer.front = answer.record.front = front;
@@ -133,29 +134,22 @@ Vec3<double> LegalWindow::error(std::uint32_t primitive, const Vec3<double>& p_w
 }
 
 std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) const {
-  const auto& polygons = records_.polygons.polygons;
-  const auto polygon = std::ranges::lower_bound(polygons, primitive, {}, &ClipPolygon::primitive);
+  const auto polygons = std::ranges::equal_range(records_.polygons.polygons, primitive, {}, &ClipPolygon::primitive);
   const auto number = draws_.of_primitive(primitive);
-  if (polygon == polygons.end() || polygon->primitive != primitive || !number || polygon->count < 3 ||
-      *number >= records_.matrices.size() ||
-      std::size_t{polygon->first} + polygon->count > records_.polygons.vertices.size()) {
-    return {};
-  }
+  if (polygons.empty() || !number || *number >= records_.matrices.size()) return {};
   const Draw& draw = scene_.draws[*number];
-  const Matrices<double>& m = records_.matrices[*number];
-  const std::vector<Vec4<double>>& back = records_.varyings[Varying::back_color].clipped;
-  const bool two_sided = carries(scene_, draw, Varying::back_color) && back.size() == records_.polygons.vertices.size();
-  std::vector<Corner> corners;
-  for (std::uint32_t i = polygon->first; i < polygon->first + polygon->count; ++i) {
-    const ClipVertex<double>& v = records_.polygons.vertices[i];
-    Corner& c = corners.emplace_back();
-    c.vertex = {Vec3<double>(v.p_clip) / v.p_clip.w * m.win_scale + m.win_translate, 1 / v.p_clip.w, {}, v.color};
-    c.back_color = two_sided ? back[i] : v.color;
-    c.error = error(primitive, c.vertex.p_win);
-    const Vec3<double>& p = c.vertex.p_win;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return {};
+  if (is_filled(draw)) {
+    std::vector<WindowAnswer> out;
+    for (const ClipPolygon& polygon : polygons) {
+      const auto corners = corners_of(polygon, *number);
+      if (corners.empty()) return {};
+      std::ranges::copy(fan(draw, primitive, corners), std::back_inserter(out));
+    }
+    return {out};
   }
-  if (is_filled(draw)) return {fan(draw, primitive, corners)};
+  if (polygons.size() > 1) return {};
+  const std::vector<WindowCorner> corners = corners_of(polygons.front(), *number);
+  if (corners.empty()) return {};
   const Area snapped = snapped_area(corners), plain = area_ == FacingArea::either ? unsnapped_area(corners) : snapped;
   std::vector<std::vector<WindowAnswer>> out;
   for (const bool front : {true, false}) {
@@ -168,6 +162,25 @@ std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) 
       out.push_back(mode == PolygonMode::fill ? fan(draw, primitive, corners)
                                               : outline(draw, primitive, front, corners));
     }
+  }
+  return out;
+}
+
+std::vector<WindowCorner> LegalWindow::corners_of(const ClipPolygon& polygon, std::size_t draw) const {
+  const std::vector<ClipVertex<double>>& vertices = records_.polygons.vertices;
+  if (polygon.count < 3 || std::size_t{polygon.first} + polygon.count > vertices.size()) return {};
+  const Matrices<double>& m = records_.matrices[draw];
+  const std::vector<Vec4<double>>& back = records_.varyings[Varying::back_color].clipped;
+  const bool two_sided = carries(scene_, scene_.draws[draw], Varying::back_color) && back.size() == vertices.size();
+  std::vector<WindowCorner> out;
+  for (std::uint32_t i = polygon.first; i < polygon.first + polygon.count; ++i) {
+    const ClipVertex<double>& v = vertices[i];
+    WindowCorner& c = out.emplace_back();
+    c.vertex = {Vec3<double>(v.p_clip) / v.p_clip.w * m.win_scale + m.win_translate, 1 / v.p_clip.w, {}, v.color};
+    c.back_color = two_sided ? back[i] : v.color;
+    c.error = error(polygon.primitive, c.vertex.p_win);
+    const Vec3<double>& p = c.vertex.p_win;
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return {};
   }
   return out;
 }

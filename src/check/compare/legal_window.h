@@ -1,5 +1,5 @@
-// Legal outcomes of stage 4 (window) for one polygon, where rounding and snapping decide its facing. Computed from the
-// records of earlier stages, so that a wrong window record excuses nothing.
+// Legal outcomes of stage 4 (window) for the polygons of one primitive, where rounding and snapping decide its facing.
+// Computed from the records of earlier stages, so that a wrong window record excuses nothing.
 #pragma once
 
 #include <array>
@@ -26,15 +26,18 @@ struct WindowAnswer {
 /// decide before they snap, either. OpenGL 2.1, equation 3.6, leaves snapping open.
 enum class FacingArea { snapped, either };
 
+struct WindowCorner;
+
 class LegalWindow {
  public:
   /// `records`: matrices and clip polygons of the renderer that is judged, with the varying back_color where faces have
   /// colours of their own. `factor`: of u of the magnitude of p_win, its error (ledger, exact.window).
   LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area);
 
-  /// Lists of records, one of which the primitive's polygon becomes. Filled on both faces: one list, each answer with
+  /// Lists of records, one of which the primitive's polygons become. Filled on both faces: one list, each answer with
   /// its own legal facings. Else a list for each legal facing, empty where that face is culled. No list: a line, a
-  /// point, no such polygon or no matrices, or a corner without a finite window position.
+  /// point, no such polygon or no matrices, a corner without a finite window position, or several polygons that are not
+  /// filled.
   std::vector<std::vector<WindowAnswer>> of(std::uint32_t primitive) const;
 
   /// For each record of `run`, the number of its answer, ascending; none where `run` is not legal: a record without an
@@ -49,6 +52,8 @@ class LegalWindow {
 
  private:
   bool fits(const WindowTriangle<double>& t, const WindowAnswer& answer) const;
+  // None: a line, a point, or a corner without a finite window position. `draw`: the number of the polygon's draw.
+  std::vector<WindowCorner> corners_of(const ClipPolygon& polygon, std::size_t draw) const;
 
   const Scene& scene_;
   const Records<double>& records_;

@@ -152,20 +152,23 @@ class RecordPrinter {
       came_in(Stage::vertex, of[c], out), came_in(Stage::light, of[c], out);
     }
     for (const auto& [who, side] : {std::pair("got", &mine_), std::pair("expected", &theirs_)}) {
-      const std::vector<ClipVertex<double>> vertices = polygon_of(*side, primitive);
-      out.push_back(vertices.empty() ? fmt::format("{} no polygon", who)
-                                     : fmt::format("{} a polygon of {}:", who, vertices.size()));
-      for (const ClipVertex<double>& v : vertices)
-        out.push_back(
-            fmt::format("  {} p_clip {}, color {}", v.cut ? "cut   " : "vertex", text(v.p_clip), text(v.color)));
+      const auto polygons = polygons_of(*side, primitive);
+      if (polygons.empty()) out.push_back(fmt::format("{} no polygon", who));
+      for (const auto vertices : polygons) {
+        out.push_back(fmt::format("{} a polygon of {}:", who, vertices.size()));
+        for (const ClipVertex<double>& v : vertices)
+          out.push_back(
+              fmt::format("  {} p_clip {}, color {}", v.cut ? "cut   " : "vertex", text(v.p_clip), text(v.color)));
+      }
     }
   }
 
   // First of the primitive's window triangles that differ, and the polygon that they came from.
   void window(std::uint32_t primitive, TextLines& out) const {
     out.push_back(primitive_text(primitive));
-    for (const ClipVertex<double>& v : polygon_of(mine_, primitive))
-      out.push_back(fmt::format("came in: p_clip {}", text(v.p_clip)));
+    for (const auto vertices : polygons_of(mine_, primitive)) {
+      for (const ClipVertex<double>& v : vertices) out.push_back(fmt::format("came in: p_clip {}", text(v.p_clip)));
+    }
     const auto a = triangles_of(mine_.records, static_cast<std::int32_t>(primitive)),
                b = triangles_of(theirs_.records, static_cast<std::int32_t>(primitive));
     if (a.size() != b.size()) out.push_back(fmt::format("{} window triangles, expected {}", a.size(), b.size()));
@@ -244,11 +247,14 @@ class RecordPrinter {
     return fmt::format("primitive {} (the {}. of draw {})", primitive,
                        primitive - draws_.ranges()[d].first_primitive + 1, d);
   }
-  static std::vector<ClipVertex<double>> polygon_of(const Capture& side, std::uint32_t primitive) {
+  static std::vector<std::span<const ClipVertex<double>>> polygons_of(const Capture& side, std::uint32_t primitive) {
     const auto& [vertices, polygons] = side.records.polygons;
-    const auto p = std::ranges::find(polygons, primitive, &ClipPolygon::primitive);
-    if (p == polygons.end() || p->first + p->count > vertices.size()) return {};
-    return {vertices.begin() + p->first, vertices.begin() + p->first + p->count};
+    std::vector<std::span<const ClipVertex<double>>> out;
+    for (const ClipPolygon& p : polygons) {
+      if (p.primitive == primitive && std::size_t{p.first} + p.count <= vertices.size())
+        out.push_back(std::span(vertices).subspan(p.first, p.count));
+    }
+    return out;
   }
   // Every fragment that reached the pixel, in draw order.
   void arrivals(int x, int y, TextLines& out) const {

@@ -68,6 +68,27 @@ struct Window : testing::Test {
   WindowTriangle<double> thin;
 };
 
+// A clipper may leave triangles: each of primitive 2's, the last of which snapping may empty, is a polygon.
+TEST_F(Window, PolygonsOfOnePrimitiveAreJudgedTogether) {
+  const Change split = [](Records<double>& r) {
+    const ClipPolygon whole = r.polygons.polygons[1];
+    std::vector<ClipPolygon> made;
+    for (std::uint32_t i = 2; i < whole.count; ++i) {
+      made.push_back({whole.primitive, static_cast<std::uint32_t>(r.polygons.vertices.size()), 3});
+      for (const std::uint32_t k : {0u, i - 1, i})
+        r.polygons.vertices.push_back(ClipVertex<double>(r.polygons.vertices[whole.first + k]));
+    }
+    r.polygons.polygons.erase(r.polygons.polygons.begin() + 1);
+    r.polygons.polygons.insert(r.polygons.polygons.begin() + 1, made.begin(), made.end());
+  };
+  const auto with = [&](const Change& change) { return compare([&](auto& r) { split(r), change(r); }); };
+  EXPECT_TRUE(passes(with(kUnchanged)));
+  EXPECT_TRUE(passes(with([&](auto& r) { r.triangles.insert(r.triangles.begin() + 3, thin); })));
+  EXPECT_FALSE(passes(with(erase(1))));
+  EXPECT_FALSE(passes(with(erase(2))));
+  EXPECT_FALSE(passes(with([&](auto& r) { r.triangles.insert(r.triangles.begin() + 1, thin); }))) << "in another order";
+}
+
 TEST_F(Window, EqualOnesPass) {
   EXPECT_TRUE(passes(compare(kUnchanged)));
   EXPECT_EQ(compare(kUnchanged).max_difference, 0);
