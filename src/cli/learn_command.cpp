@@ -105,9 +105,8 @@ int learn(const LearnOptions& o) {
   try {
     learned = learn::learn(renderer);
   } catch (const Unsupported& e) {
-    throw std::invalid_argument(fmt::format(
-        "not learned: expected a rectangle drawn (unlit triangles, depth_func always), found unsupported: {}",
-        e.what()));
+    throw std::invalid_argument(
+        fmt::format("not learned: expected a rectangle of unlit triangles, found unsupported: {}", e.what()));
   } catch (const RendererFailed& e) {
     fmt::print("failed: {}\n", e.what());
     return kDiffers;

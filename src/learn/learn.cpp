@@ -35,11 +35,27 @@ const std::vector<Probe>& probes() {
   return all;
 }
 
+// learn_rows(), by the first depth function that the renderer draws; it draws the other probes by that one, too.
+void learn_rows_by_any(Prober& prober) {
+  std::string refused;
+  for (const DepthFunc func : {DepthFunc::always, DepthFunc::less_equal, DepthFunc::less}) {
+    prober.depth_func = func;
+    try {
+      learn_rows(prober);
+      if (!refused.empty()) prober.learned.rows.push_back({"depth_func", std::string(name_of(func)), refused});
+      return;
+    } catch (const Unsupported& e) {
+      if (func == DepthFunc::less) throw;
+      refused = fmt::format("of the probes; {} is unsupported: {}", name_of(func), e.what());
+    }
+  }
+}
+
 }  // namespace
 
 Learned learn(Renderer& renderer) {
   Prober prober(renderer);
-  learn_rows(prober);
+  learn_rows_by_any(prober);
   for (const Probe& probe : probes()) {
     try {
       probe.find(prober);

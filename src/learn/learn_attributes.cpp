@@ -35,6 +35,7 @@ void learn_clipping(Prober& prober) {
     first = std::min(first, x), last = std::max(last, x);
   }
   const auto near_to = [](int column, int expected) { return std::abs(column - expected) <= 1; };
+  const bool tested = prober.depth_func != DepthFunc::always;  // and so not drawn beyond the cleared depth, 1
   std::string evidence = "of depths from -0.5 to 1.5 none is drawn";
   if (first <= last)
     evidence = fmt::format("of depths from -0.5 to 1.5, those from {:.2f} to {:.2f} are drawn",
@@ -44,8 +45,8 @@ void learn_clipping(Prober& prober) {
                             left.depth(last, kFrameSize / 2));
   C& c = prober.learned.conventions;
   const bool near_cut = near_to(first, kFrameSize / 4) || near_to(first, kFrameSize / 2),
-             far_cut = near_to(last, 3 * kFrameSize / 4 - 1);
-  const bool known = (near_cut || near_to(first, 0)) && (far_cut || near_to(last, kFrameSize - 1));
+             ends_at_far = near_to(last, 3 * kFrameSize / 4 - 1), far_cut = ends_at_far && (near_cut || !tested);
+  const bool known = (near_cut || near_to(first, 0)) && (ends_at_far || near_to(last, kFrameSize - 1));
   if (!known) {
     prober.fits_none(volume, evidence);
     return prober.open(planes, "the view volume is open");

@@ -21,19 +21,21 @@ constexpr int kInRow = 16, kAll = kInRow * kInRow;
 constexpr std::size_t kColors = 3 * kAll;
 
 // Rectangle number i of 256, 4 x 4 pixels each.
-auto tile(int i, const glm::vec4& color) {
+auto tile(int i, double z, const glm::vec4& color) {
   const glm::dvec2 low(4.0 * (i % kInRow), 4.0 * (i / kInRow));
-  return rectangle(low, low + 4.0, 0.5, color);
+  return rectangle(low, low + 4.0, z, color);
 }
 // The colour of rectangle i, at a pixel inside one of its two triangles.
 const glm::vec4& pixel_of(const Plane<glm::vec4>& color, int i) {
   return color(4 * (i % kInRow) + 1, 4 * (i / kInRow) + 2);
 }
 
+// Nearer than those of the scene's draws.
 Draw& add_tiles(Scene& scene, auto color_of) {
   Triangles triangles;
+  const double z = 0.5 - 0.125 * static_cast<double>(scene.draws.size());
   for (int i = 0; i < kAll; ++i) {
-    for (const auto& t : tile(i, color_of(i))) triangles.push_back(t);
+    for (const auto& t : tile(i, z, color_of(i))) triangles.push_back(t);
   }
   return add_triangles(scene, triangles);
 }

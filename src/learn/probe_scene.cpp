@@ -29,7 +29,6 @@ Draw& add_triangles(Scene& scene, std::span<const std::array<ProbeCorner, 3>> tr
   Draw draw;
   draw.mesh = static_cast<std::uint32_t>(scene.meshes.size());
   draw.lit = false;
-  draw.depth_func = DepthFunc::always;
   scene.meshes.push_back(std::move(mesh));
   return scene.draws.emplace_back(std::move(draw));
 }

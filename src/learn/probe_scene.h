@@ -22,7 +22,7 @@ struct ProbeCorner {
 /// places multiples of 2^-10 pixel, floats on the way to the window lose nothing.
 Scene probe_frame(std::string name, int width, int height);
 
-/// Adds a draw of the triangles, unlit, that passes every test; it leaves depths.
+/// Adds a draw of the triangles, unlit; it leaves depths. Prober::draw() chooses its depth function.
 Draw& add_triangles(Scene& scene, std::span<const std::array<ProbeCorner, 3>> triangles);
 
 /// Two triangles that fill [low, high) at one depth, in one colour.

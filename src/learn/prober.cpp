@@ -9,7 +9,9 @@
 namespace plumbline::learn {
 
 Planes Prober::draw(const Scene& scene) {
-  Capture left = renderer_.capture(scene, Request{});
+  Scene probe = scene;
+  for (Draw& draw : probe.draws) draw.depth_func = depth_func;
+  Capture left = renderer_.capture(probe, Request{});
   if (left.planes.color.empty()) throw Unsupported("it leaves no planes.color");
   to_dialect(learned.conventions, left);
   if (std::ranges::find(learned.pictures, scene.name, &ProbePicture::name) == learned.pictures.end())

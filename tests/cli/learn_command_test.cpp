@@ -147,7 +147,7 @@ TEST_F(Cli, conventions_that_are_none_are_refused) {
 TEST_F(Cli, learn_of_what_draws_nothing_is_refused) {
   const Outcome unable = plumb("learn --program 'sh -c \"echo no >&2; exit 77\" {input} {output}'");
   EXPECT_EQ(unable.code, 2) << unable.text;
-  EXPECT_TRUE(unable.says("depth_func always), found unsupported: no")) << unable.text;
+  EXPECT_TRUE(unable.says("expected a rectangle of unlit triangles, found unsupported: no")) << unable.text;
   const Outcome failed = plumb("learn --program 'sh -c \"exit 3\" {input} {output}'");
   EXPECT_EQ(failed.code, 1) << failed.text;
   EXPECT_TRUE(failed.says("exited with status 3")) << failed.text;

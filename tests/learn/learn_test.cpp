@@ -304,6 +304,31 @@ TEST(Learn, TexturesThatNoConventionExplainsAreFindings) {
   }
 }
 
+// A renderer of one depth function is drawn with by that one. What lies beyond the far plane then fails the depth test:
+// whether it is cut does not show.
+TEST(Learn, ADepthFunctionThatIsDrawnIsEnough) {
+  for (const DepthFunc only : {DepthFunc::less_equal, DepthFunc::less}) {
+    OfAlteredScenes renderer;
+    const auto refuse_others = [&](Scene& scene) {
+      for (const Draw& draw : scene.draws)
+        if (draw.depth_func != only) throw Unsupported("another depth function");
+    };
+    renderer.before = refuse_others;
+    const Learned found = learn(renderer);
+    EXPECT_EQ(conventions_text(found.conventions), conventions_text(ours())) << name_of(only);
+    const auto row = std::ranges::find(found.rows, "depth_func", &LearnedRow::name);
+    ASSERT_NE(row, found.rows.end());
+    EXPECT_EQ(row->value, name_of(only));
+    renderer.before = [&](Scene& scene) {
+      refuse_others(scene);
+      scene.depth_clamp = true;
+    };
+    C clamped = ours();
+    clamped.depth_planes = C::DepthPlanes::clamped;
+    EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(clamped)) << name_of(only);
+  }
+}
+
 TEST(Learn, ARendererThatDrawsNoRectangleIsRefused) {
   Altered renderer(pipeline::make_pipeline(), [](Capture&) { throw Unsupported("no"); });
   EXPECT_THROW(learn(renderer), Unsupported);
