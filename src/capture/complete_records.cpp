@@ -143,6 +143,12 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
   }
 }
 
+// ---- depths
+
+// How far from code / (2^n - 1) doubles in [0,1] may be that were computed from the code, such as 1 - code' / (2^n - 1):
+// by 8 roundings, of 2^-53 each. Codes are 2^-24 apart or more.
+constexpr double kCodeRoundings = 0x1p-50;
+
 // ---- order
 
 void sort_triangles(Records<double>& r) {
@@ -188,7 +194,8 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   const DepthFormat format = depth_format_of(scene.frame, conventions);
   const double codes = depth_scale(format);
   for (double& z : capture.planes.depth.values()) {
-    if (capture.depth_in_float && codes > 0) z = std::nearbyint(z * codes) / codes;
+    const double code = codes > 0 ? std::nearbyint(z * codes) / codes : z;
+    if (capture.depth_in_float || std::abs(z - code) <= kCodeRoundings) z = code;
     // A buffer of doubles holds the float, and more.
     if (format == DepthFormat::z32f && std::abs(z) <= static_cast<double>(std::numeric_limits<float>::max()))
       z = static_cast<double>(static_cast<float>(z));

@@ -170,6 +170,12 @@ TEST(CompleteRecords, take_depths_for_those_of_the_declared_format) {
   };
   EXPECT_EQ(stored(Conventions::Depth::z32f, 0.1, false), static_cast<double>(0.1f));
   EXPECT_EQ(stored(Conventions::Depth::as_asked, 0.1, false), 0.1);
+  for (const int code : {1, 21845, 40000, 65534}) {
+    const double z = code / 65535.0;
+    EXPECT_EQ(stored(Conventions::Depth::z16, 1 - (65535 - code) / 65535.0, false), z) << "off by roundings of double";
+    EXPECT_EQ(stored(Conventions::Depth::z16, code * (1 / 65535.0), false), z);
+    EXPECT_NE(stored(Conventions::Depth::z16, z + 0x1p-48, false), z);
+  }
   EXPECT_EQ(stored(Conventions::Depth::z16, static_cast<double>(0.1f), true), 6554.0 / 65535);
 }
 
