@@ -117,6 +117,23 @@ Capture facing_as_it_lies(const Capture& in) {
   return out;
 }
 
+// The capture with its corners where the grid has them. window.snapped holds grids of at most 8 bits.
+Capture with_snapped_corners(const Capture& in, const C& conventions) {
+  Capture out = in;
+  const bool is_finer = conventions.subpixel_bits > 8;
+  for (WindowTriangle<double>& t : out.records.triangles) {
+    for (WindowVertex<double>& v : t.v) {
+      for (int i = 0; i < 2; ++i) {
+        const double fine = std::ldexp(v.p_win[i] - 0.5, conventions.subpixel_bits);
+        v.p_win[i] =
+            0.5 + (is_finer ? std::ldexp(rounded(conventions.subpixel_rounding, fine), -conventions.subpixel_bits)
+                            : static_cast<double>(v.snapped[i]) / kSubpixel);
+      }
+    }
+  }
+  return out;
+}
+
 // ---- visibility
 
 bool passes_in_float(const DrawIndex& draws, const Records<double>& r, std::size_t i) {
@@ -166,6 +183,8 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
   const bool interpolates = stage == Stage::depth || stage == Stage::attributes || stage == Stage::texture;
   if (interpolates && conventions.subpixel_bits == C::kFloat && std::ranges::any_of(r.triangles, is_turned_over))
     return referee.run_stage(scene, stage, facing_as_it_lies(in));
+  if (interpolates && conventions.subpixel_bits != C::kFloat && conventions.attribute_corners == C::Corners::snapped)
+    return referee.run_stage(scene, stage, with_snapped_corners(in, conventions));
   const Mirror by = mirror_of(conventions.tie_rule);
   if (stage == Stage::coverage && knows_ties(scene, conventions) && (by.x || by.y))
     return cover_by_rule(referee, scene, in, by);

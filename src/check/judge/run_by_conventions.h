@@ -15,7 +15,7 @@ bool knows_ties(const Scene& scene, const Conventions& conventions);
 /// referee.run_stage(scene, stage, in), but for what the conventions say otherwise than OpenGL:
 /// - coverage: where knows_ties(), triangles own samples on their edges by the declared rule;
 /// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between which
-///   the renderer interpolates;
+///   the renderer interpolates; where attribute_corners are snapped, the renderer interpolates between snapped corners;
 /// - visibility: where alpha tests are in float, alphas are not rounded to codes.
 /// Throws as run_stage() does.
 Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, const Capture& in,

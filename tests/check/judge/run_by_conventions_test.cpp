@@ -2,6 +2,7 @@
 #include "check/judge/run_by_conventions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <tuple>
 
@@ -110,6 +111,40 @@ TEST_F(ByConventions, AWrongRuleIsFound) {
   for (WindowTriangle<double>& t : mine.triangles) t.v[0].p_win.y += 0.5 / 256;
   EXPECT_EQ(compared().differing, 0u);
   EXPECT_EQ(compared().ambiguous, 6u);
+}
+
+// A corner that lies 0.4 steps to the right of its place on the grid: depth and attributes go by either.
+TEST_F(ByConventions, DeclaredCornersAreInterpolatedBetween) {
+  for (const int bits : {4, 8, 10}) {
+    add_square();
+    Records<double>& r = candidate.records;
+    r.covered = covered_by(C::TieRule::left_bottom).records.covered;
+    for (WindowTriangle<double>& t : r.triangles) t.v[1].color = glm::dvec4(1, 0, 0.5, 1), t.v[1].p_win.z = 1;
+    const Capture on_grid = candidate;
+    for (WindowTriangle<double>& t : r.triangles) t.v[1].p_win.x += std::ldexp(0.4, -bits);
+    C c;
+    c.subpixel_bits = bits;
+    const auto made_by = [&](C::Corners corners, Stage stage) {
+      c.attribute_corners = corners;
+      return run_by_conventions(*exact, scene, stage, candidate, c).records;
+    };
+    const auto plain = exact->run_stage(scene, Stage::attributes, candidate).records.attributes;
+    const auto expected = exact->run_stage(scene, Stage::attributes, on_grid).records.attributes;
+    const auto as_they_are = made_by(C::Corners::as_they_are, Stage::attributes).attributes,
+               snapped = made_by(C::Corners::snapped, Stage::attributes).attributes;
+    ASSERT_EQ(snapped.size(), 9u);
+    bool moves = false;
+    for (std::size_t i = 0; i < snapped.size(); ++i) {
+      EXPECT_EQ(as_they_are[i].color, plain[i].color);
+      EXPECT_EQ(snapped[i].color, expected[i].color);
+      moves |= plain[i].color != expected[i].color;
+    }
+    EXPECT_TRUE(moves);
+    EXPECT_EQ(made_by(C::Corners::snapped, Stage::depth).depth,
+              exact->run_stage(scene, Stage::depth, on_grid).records.depth);
+    c.subpixel_bits = C::kFloat;
+    EXPECT_EQ(made_by(C::Corners::snapped, Stage::attributes).attributes[0].color, plain[0].color) << "no grid";
+  }
 }
 
 // Alpha 0.5 + 0.0001 is the code of 0.5, and greater in float.
