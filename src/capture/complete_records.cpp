@@ -96,7 +96,19 @@ void derive_cut(const DrawIndex& draws, Records<double>& r) {
 }
 
 // Positions are below 2^30 (require_in_range()), differences below 2^31, products below 2^62.
-bool faces_front(const WindowTriangle<double>& t) {
+bool faces_front(const WindowTriangle<double>& t, const Conventions& conventions) {
+  if (conventions.subpixel_bits == Conventions::kFloat || conventions.subpixel_bits > 8) {  // snapped is too coarse
+    using Place = glm::vec<2, long double>;
+    const auto place = [&](const WindowVertex<double>& v) {
+      if (conventions.subpixel_bits == Conventions::kFloat) return Place(v.p_win);
+      const auto on_grid = [&](double p) {
+        return rounded(conventions.subpixel_rounding, std::ldexp(p - 0.5, conventions.subpixel_bits));
+      };
+      return Place(on_grid(v.p_win.x), on_grid(v.p_win.y));
+    };
+    const Place a = place(t.v[0]), e1 = place(t.v[1]) - a, e2 = place(t.v[2]) - a;
+    return e1.x * e2.y > e1.y * e2.x;
+  }
   const glm::i64vec2 a(t.v[0].snapped), e1 = glm::i64vec2(t.v[1].snapped) - a, e2 = glm::i64vec2(t.v[2].snapped) - a;
   return e1.x * e2.y > e1.y * e2.x;
 }
@@ -139,7 +151,7 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
       for (WindowVertex<double>& v : t.v) v.snapped = snapped_place(v.p_win, i, conventions);
     }
     require_in_range(t, i);
-    if (lacks("window.front")) t.front = t.corners < 3 || faces_front(t);
+    if (lacks("window.front")) t.front = t.corners < 3 || faces_front(t, conventions);
   }
 }
 

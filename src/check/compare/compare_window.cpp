@@ -28,7 +28,7 @@ class RunComparison {
         factor_(factor),
         conventions_(conventions),
         colors_(colors),
-        legal_(scene, candidate, factor, FacingArea::snapped) {}
+        legal_(scene, candidate, factor, FacingArea::snapped, conventions) {}
 
   void operator()(Run mine, Run theirs, std::size_t first) {
     const bool alike = std::ranges::equal(mine, theirs, [&](const auto& a, const auto& b) { return is_alike(a, b); });

@@ -24,12 +24,13 @@ struct Spot {
   Vec2<double> middle, reach;
 };
 
-// Snapped positions within the error of p_win.
-Spot snapped_spot(const WindowCorner& c) {
+// Positions on the grid within the error of p_win [its steps].
+Spot snapped_spot(const WindowCorner& c, const Conventions& grid) {
   Spot out{};
   for (int k = 0; k < 2; ++k) {
     const double at = c.vertex.p_win[k] - 0.5, error = c.error[k];
-    const double least = std::nearbyint((at - error) * kSubpixel), most = std::nearbyint((at + error) * kSubpixel);
+    const double least = rounded(grid.subpixel_rounding, std::ldexp(at - error, grid.subpixel_bits)),
+                 most = rounded(grid.subpixel_rounding, std::ldexp(at + error, grid.subpixel_bits));
     out.middle[k] = (least + most) / 2;
     out.reach[k] = (most - least) / 2;
   }
@@ -61,19 +62,20 @@ Area area_of(std::span<const Spot> spots, double rounding) {
   return {area - moved, area + moved};
 }
 
-// Products of snapped coordinates are integers: sums below 2^52 are exact in double.
-Area snapped_area(std::span<const WindowCorner> corners) {
-  std::vector<Spot> spots;
-  for (const WindowCorner& c : corners) spots.push_back(snapped_spot(c));
-  const Area exact = area_of(spots, 0);
-  return std::max(std::abs(exact.least), std::abs(exact.most)) < 0x1p48 ? exact : area_of(spots, 0x1p-48);
-}
-
 // In float: two differences, a product and a sum round, 4 u of the terms.
 Area unsnapped_area(std::span<const WindowCorner> corners) {
   std::vector<Spot> spots;
   for (const WindowCorner& c : corners) spots.push_back(unsnapped_spot(c));
   return area_of(spots, 4 * u);
+}
+
+// Products of snapped coordinates are integers: sums below 2^52 are exact in double.
+Area snapped_area(std::span<const WindowCorner> corners, const Conventions& grid) {
+  if (grid.subpixel_bits == Conventions::kFloat) return unsnapped_area(corners);
+  std::vector<Spot> spots;
+  for (const WindowCorner& c : corners) spots.push_back(snapped_spot(c, grid));
+  const Area exact = area_of(spots, 0);
+  return std::max(std::abs(exact.least), std::abs(exact.most)) < 0x1p48 ? exact : area_of(spots, 0x1p-48);
 }
 
 bool is_culled(Cull cull, bool front) { return cull == (front ? Cull::front : Cull::back); }
@@ -92,11 +94,12 @@ WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width
 }
 
 // Each triangle of the fan is faced, and culled, by itself.
-std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const WindowCorner> corners) {
+std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const WindowCorner> corners,
+                              const Conventions& grid) {
   std::vector<WindowAnswer> out;
   for (std::size_t i = 2; i < corners.size(); ++i) {
     const std::array<WindowCorner, 3> three = {corners[i - 1], corners[i], corners[0]};
-    const Area area = snapped_area(three);
+    const Area area = snapped_area(three, grid);
     WindowAnswer answer = answer_of(primitive, 3, 1, three[0], three[1], three[2]);
     const bool front = area.most > 0, back = area.least < 0;
     answer.front = front && !is_culled(draw.cull, true);
@@ -125,8 +128,9 @@ std::vector<WindowAnswer> outline(const Draw& draw, std::uint32_t primitive, boo
 
 }  // namespace
 
-LegalWindow::LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area)
-    : scene_(scene), records_(records), factor_(factor), area_(area), draws_(scene) {}
+LegalWindow::LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area,
+                         const Conventions& conventions)
+    : scene_(scene), records_(records), factor_(factor), area_(area), conventions_(conventions), draws_(scene) {}
 
 Vec3<double> LegalWindow::error(std::uint32_t primitive, const Vec3<double>& p_win) const {
   const Vec3<double>& t = records_.matrices[draws_.of_primitive(primitive).value()].win_translate;
@@ -143,14 +147,15 @@ std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) 
     for (const ClipPolygon& polygon : polygons) {
       const auto corners = corners_of(polygon, *number);
       if (corners.empty()) return {};
-      std::ranges::copy(fan(draw, primitive, corners), std::back_inserter(out));
+      std::ranges::copy(fan(draw, primitive, corners, conventions_), std::back_inserter(out));
     }
     return {out};
   }
   if (polygons.size() > 1) return {};
   const std::vector<WindowCorner> corners = corners_of(polygons.front(), *number);
   if (corners.empty()) return {};
-  const Area snapped = snapped_area(corners), plain = area_ == FacingArea::either ? unsnapped_area(corners) : snapped;
+  const Area snapped = snapped_area(corners, conventions_),
+             plain = area_ == FacingArea::either ? unsnapped_area(corners) : snapped;
   std::vector<std::vector<WindowAnswer>> out;
   for (const bool front : {true, false}) {
     const bool legal = front ? snapped.most > 0 || plain.most > 0 : snapped.least <= 0 || plain.least <= 0;
@@ -159,7 +164,7 @@ std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) 
     if (is_culled(draw.cull, front)) {
       out.emplace_back();
     } else {
-      out.push_back(mode == PolygonMode::fill ? fan(draw, primitive, corners)
+      out.push_back(mode == PolygonMode::fill ? fan(draw, primitive, corners, conventions_)
                                               : outline(draw, primitive, front, corners));
     }
   }

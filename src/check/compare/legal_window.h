@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "capture/conventions.h"
 #include "capture/stages.h"
 #include "scene/draw_index.h"
 #include "scene/scene.h"
@@ -22,8 +23,8 @@ struct WindowAnswer {
   bool absent = false;                     ///< may be missing: no snapped area, or culled
 };
 
-/// Area that decides the facing of a polygon that is not filled: the snapped one (stages.h), or, for renderers that
-/// decide before they snap, either. OpenGL 2.1, equation 3.6, leaves snapping open.
+/// Area that decides the facing of a polygon that is not filled: that of corners on the grid of the conventions, or, for
+/// renderers that decide before they snap, either. OpenGL 2.1, equation 3.6, leaves snapping open.
 enum class FacingArea { snapped, either };
 
 struct WindowCorner;
@@ -31,8 +32,10 @@ struct WindowCorner;
 class LegalWindow {
  public:
   /// `records`: matrices and clip polygons of the renderer that is judged, with the varying back_color where faces have
-  /// colours of their own. `factor`: of u of the magnitude of p_win, its error (ledger, exact.window).
-  LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area);
+  /// colours of their own. `factor`: of u of the magnitude of p_win, its error (ledger, exact.window). `conventions`: the
+  /// grid.
+  LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area,
+              const Conventions& conventions = {});
 
   /// Lists of records, one of which the primitive's polygons become. Filled on both faces: one list, each answer with
   /// its own legal facings. Else a list for each legal facing, empty where that face is culled. No list: a line, a
@@ -59,6 +62,7 @@ class LegalWindow {
   const Records<double>& records_;
   double factor_;
   FacingArea area_;
+  Conventions conventions_;
   DrawIndex draws_;
 };
 

@@ -32,13 +32,6 @@ StageSet oracle_stages(const Scene& scene) {
           Stage::merge};
 }
 
-// Whether a frame by these conventions is another than OpenGL's.
-bool draws_otherwise(const Conventions& conventions) {
-  return !mistaken(conventions).empty() || conventions.subpixel_bits != Conventions().subpixel_bits ||
-         conventions.subpixel_rounding != Conventions::Rounding::nearest ||
-         conventions.depth_format != Conventions::Depth::as_asked;
-}
-
 constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
 
 // Rows of a reference that draws the scene: records and planes side by side, coverage to colour by an oracle's answers.
@@ -76,7 +69,7 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
       const Tolerance& row = tolerance(Profile::exact, stage, "scene");
       c.add(name, stage,
             compare_vertices(c.scene, c.candidate.records, theirs.records, row.factor, row.factor, inversion), &row);
-    } else if (!exact && stage > Stage::clip && draws_otherwise(candidate.conventions)) {
+    } else if (!exact && draws_otherwise(candidate.conventions, stage)) {
       c.skip(name, stage, Outcome::unsupported, "it draws by other conventions: oracles and exact judge the stage");
     } else if (!info[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, info[stage].reason);
@@ -238,7 +231,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
     const bool of_none = stage == Stage::matrices || stage == Stage::resolve;
     if (of_none || !info[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
     const JudgeId name(info.name, Kind::per_stage);
-    if (stage == Stage::clip && c.conventions.clip_depth != Conventions::ClipDepth::minus_w_to_w) {
+    if ((stage == Stage::clip || stage == Stage::window) && has_other_volume(c.conventions)) {
       c.skip(name, stage, Outcome::unsupported, "its view volume is another");
       continue;
     }

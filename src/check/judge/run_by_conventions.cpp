@@ -18,6 +18,58 @@ namespace {
 
 using C = Conventions;
 
+// ---- window: exact snaps to 1/256 pixel. Another grid is that of a window which is magnified about a pixel's centre.
+
+constexpr int kFinestBits = 16;       // for renderers without a grid
+constexpr double kFarthest = 0x1p30;  // of snapped positions [steps of the grid]
+
+// Fraction bits of the grid, fewer where positions on it would be too large.
+int bits_of_grid(const Scene& scene, const Records<double>& r, const C& conventions) {
+  int bits = conventions.subpixel_bits == C::kFloat ? kFinestBits : conventions.subpixel_bits;
+  const DrawIndex draws(scene);
+  double farthest = 0;  // [pixels]
+  for (const ClipPolygon& polygon : r.polygons.polygons) {
+    const auto draw = draws.of_primitive(polygon.primitive);
+    const std::size_t end = std::size_t{polygon.first} + polygon.count;
+    if (!draw || end > r.polygons.vertices.size()) continue;  // exact says so
+    const Matrices<double>& m = r.matrices[*draw];
+    for (std::size_t i = polygon.first; i < end; ++i) {
+      const Vec4<double>& p = r.polygons.vertices[i].p_clip;
+      const glm::dvec2 p_win = glm::abs(glm::dvec2(p) / p.w * glm::dvec2(m.win_scale) + glm::dvec2(m.win_translate));
+      const double most = std::max(p_win.x, p_win.y);
+      if (std::isfinite(most)) farthest = std::max(farthest, most);
+    }
+  }
+  while (bits > 8 && std::ldexp(farthest, bits) >= kFarthest) --bits;
+  return bits;
+}
+
+// What is added to a position, so that the nearest whole number is that which the rounding makes of it [steps]. Positions
+// less than 2^-20 from one count as it.
+double bias_of(C::Rounding rounding) {
+  constexpr double kHalf = 0.5 - 0x1p-20;
+  return rounding == C::Rounding::down ? -kHalf : rounding == C::Rounding::up ? kHalf : 0;
+}
+
+Capture window_on_grid(Renderer& referee, const Scene& scene, const Capture& in, const C& conventions) {
+  const double times = std::ldexp(1.0, bits_of_grid(scene, in.records, conventions) - 8),
+               bias = 0.5 + bias_of(conventions.subpixel_rounding) / kSubpixel;
+  Capture magnified = in;
+  for (Matrices<double>& m : magnified.records.matrices) {
+    for (int i = 0; i < 2; ++i) m.win_scale[i] *= times, m.win_translate[i] = (m.win_translate[i] - 0.5) * times + bias;
+  }
+  Capture out = referee.run_stage(scene, Stage::window, magnified);
+  for (WindowTriangle<double>& t : out.records.triangles) {
+    for (WindowVertex<double>& v : t.v) {
+      for (int i = 0; i < 2; ++i) {
+        v.p_win[i] = (v.p_win[i] - bias) / times + 0.5;
+        v.snapped[i] = static_cast<int>(snapped(conventions, (v.p_win[i] - 0.5) * kSubpixel));
+      }
+    }
+  }
+  return out;
+}
+
 // ---- coverage: exact's rule is left_bottom; another is that of a frame that is mirrored.
 
 struct Mirror {
@@ -101,37 +153,44 @@ Capture cover_by_rule(Renderer& referee, const Scene& scene, const Capture& in, 
 // ---- depth, attributes, texture
 
 bool is_turned_over(const WindowTriangle<double>& t) {
-  const double lies = twice_area(t, kAsItLies);
-  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0) != (twice_area(t, kSnapped) > 0);
+  const double lies = twice_area(t, kAsItLies), snapped = twice_area(t, kSnapped);
+  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0 ? snapped <= 0 : snapped >= 0);
 }
 
-// The capture with snapped corners that face as the unsnapped ones; exact reads nothing but the facing from them. (It
-// interpolates between the snapped corners of triangles that snapping turns over: reference/exact/barycentric.h.)
-Capture facing_as_it_lies(const Capture& in) {
-  Capture out = in;
-  for (WindowTriangle<double>& t : out.records.triangles) {
-    if (!is_turned_over(t)) continue;
-    const int up = twice_area(t, kAsItLies) > 0 ? kSubpixel : -kSubpixel;
-    t.v[0].snapped = {0, 0}, t.v[1].snapped = {kSubpixel, 0}, t.v[2].snapped = {0, up};
-  }
-  return out;
+// Snapped corners that face as the unsnapped ones; exact reads nothing but the facing from them. (It interpolates between
+// the snapped corners of triangles that snapping turns over: reference/exact/barycentric.h.)
+void face_as_it_lies(WindowTriangle<double>& t) {
+  if (!is_turned_over(t)) return;
+  const int up = twice_area(t, kAsItLies) > 0 ? kSubpixel : -kSubpixel;
+  t.v[0].snapped = {0, 0}, t.v[1].snapped = {kSubpixel, 0}, t.v[2].snapped = {0, up};
 }
 
-// The capture with its corners where the grid has them. window.snapped holds grids of at most 8 bits.
-Capture with_snapped_corners(const Capture& in, const C& conventions) {
-  Capture out = in;
-  const bool is_finer = conventions.subpixel_bits > 8;
-  for (WindowTriangle<double>& t : out.records.triangles) {
-    for (WindowVertex<double>& v : t.v) {
-      for (int i = 0; i < 2; ++i) {
-        const double fine = std::ldexp(v.p_win[i] - 0.5, conventions.subpixel_bits);
-        v.p_win[i] =
-            0.5 + (is_finer ? std::ldexp(rounded(conventions.subpixel_rounding, fine), -conventions.subpixel_bits)
-                            : static_cast<double>(v.snapped[i]) / kSubpixel);
-      }
+// The corners where the grid has them. window.snapped holds grids of at most 8 bits.
+void move_to_grid(WindowTriangle<double>& t, const C& conventions) {
+  const int bits = conventions.subpixel_bits;
+  for (WindowVertex<double>& v : t.v) {
+    for (int i = 0; i < 2; ++i) {
+      const double fine = std::ldexp(v.p_win[i] - 0.5, bits);
+      v.p_win[i] = 0.5 + (bits > 8 ? std::ldexp(rounded(conventions.subpixel_rounding, fine), -bits)
+                                   : static_cast<double>(v.snapped[i]) / kSubpixel);
     }
   }
-  return out;
+}
+
+Capture interpolate(Renderer& referee, const Scene& scene, Stage stage, const Capture& in, const C& conventions) {
+  const bool is_float = conventions.subpixel_bits == C::kFloat;
+  const bool is_finer = is_float || conventions.subpixel_bits > 8;
+  const bool on_grid = !is_float && conventions.attribute_corners == C::Corners::snapped;
+  const bool is_affine = conventions.interpolation == C::Interpolation::affine && stage != Stage::depth;
+  const bool turns_over = is_finer && std::ranges::any_of(in.records.triangles, is_turned_over);
+  if (!turns_over && !on_grid && !is_affine) return referee.run_stage(scene, stage, in);
+  Capture between = in;
+  for (WindowTriangle<double>& t : between.records.triangles) {
+    if (on_grid) move_to_grid(t, conventions);
+    if (is_finer) face_as_it_lies(t);
+    for (WindowVertex<double>& v : t.v) v.inv_w = is_affine ? 1 : v.inv_w;
+  }
+  return referee.run_stage(scene, stage, between);
 }
 
 // ---- visibility
@@ -170,6 +229,14 @@ Capture test_in_float(Renderer& referee, const Scene& scene, const Capture& in) 
 
 }  // namespace
 
+bool has_other_volume(const Conventions& conventions) { return conventions.clip_depth != C::ClipDepth::minus_w_to_w; }
+
+bool draws_otherwise(const Conventions& conventions, Stage stage) {
+  if (stage <= Stage::clip) return stage == Stage::clip && has_other_volume(conventions);
+  return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
+         conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
+}
+
 bool knows_ties(const Scene& scene, const Conventions& c) {
   using enum C::TieRule;
   const bool is_of_sides =
@@ -180,18 +247,27 @@ bool knows_ties(const Scene& scene, const Conventions& c) {
 Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, const Capture& in,
                            const Conventions& conventions) {
   const Records<double>& r = in.records;
-  const bool interpolates = stage == Stage::depth || stage == Stage::attributes || stage == Stage::texture;
-  if (interpolates && conventions.subpixel_bits == C::kFloat && std::ranges::any_of(r.triangles, is_turned_over))
-    return referee.run_stage(scene, stage, facing_as_it_lies(in));
-  if (interpolates && conventions.subpixel_bits != C::kFloat && conventions.attribute_corners == C::Corners::snapped)
-    return referee.run_stage(scene, stage, with_snapped_corners(in, conventions));
-  const Mirror by = mirror_of(conventions.tie_rule);
-  if (stage == Stage::coverage && knows_ties(scene, conventions) && (by.x || by.y))
-    return cover_by_rule(referee, scene, in, by);
-  const bool has_alphas = r.depth.size() == r.covered.size() && r.shaded.size() == r.covered.size();
-  if (stage == Stage::visibility && tests_alpha(scene) && has_alphas &&
-      conventions.alpha_test == C::AlphaTest::in_float)
-    return test_in_float(referee, scene, in);
+  switch (stage) {
+    case Stage::window: {
+      const bool is_dialects = conventions.subpixel_bits == 8 && conventions.subpixel_rounding == C::Rounding::nearest;
+      if (is_dialects || r.matrices.size() != scene.draws.size()) break;
+      return window_on_grid(referee, scene, in, conventions);
+    }
+    case Stage::coverage: {
+      const Mirror by = mirror_of(conventions.tie_rule);
+      if (!knows_ties(scene, conventions) || !(by.x || by.y)) break;
+      return cover_by_rule(referee, scene, in, by);
+    }
+    case Stage::depth:
+    case Stage::attributes:
+    case Stage::texture: return interpolate(referee, scene, stage, in, conventions);
+    case Stage::visibility: {
+      const bool has_alphas = r.depth.size() == r.covered.size() && r.shaded.size() == r.covered.size();
+      if (!tests_alpha(scene) || !has_alphas || conventions.alpha_test != C::AlphaTest::in_float) break;
+      return test_in_float(referee, scene, in);
+    }
+    default: break;
+  }
   return referee.run_stage(scene, stage, in);
 }
 

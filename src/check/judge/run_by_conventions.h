@@ -7,15 +7,24 @@
 
 namespace plumbline::check {
 
+/// Whether the view volume is not OpenGL's: exact's clipping, and the depths of its window, are others.
+bool has_other_volume(const Conventions& conventions);
+
+/// Whether the conventions make another stage than OpenGL's.
+bool draws_otherwise(const Conventions& conventions, Stage stage);
+
 /// Whether run_by_conventions() knows which triangle owns a sample on an edge: the rule is settled (conventions.h,
 /// settles_ties), by left or right and bottom or top; window.snapped holds the grid (at most 8 bits); pixels are sampled
 /// at their centres.
 bool knows_ties(const Scene& scene, const Conventions& conventions);
 
 /// referee.run_stage(scene, stage, in), but for what the conventions say otherwise than OpenGL:
+/// - window: triangles have an area and face the front on the declared grid; on one of 16 bits, or fewer where positions
+///   on it do not fit 31 bits, where corners are not snapped;
 /// - coverage: where knows_ties(), triangles own samples on their edges by the declared rule;
 /// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between which
 ///   the renderer interpolates; where attribute_corners are snapped, the renderer interpolates between snapped corners;
+///   attributes and texture: by 1/w = 1 where interpolation is affine;
 /// - visibility: where alpha tests are in float, alphas are not rounded to codes.
 /// Throws as run_stage() does.
 Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, const Capture& in,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check/compare/matched_by_primitive.h"
+#include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
 
 namespace plumbline::check {
@@ -81,7 +82,8 @@ void turn_triangles(Records<double>& candidate, const Records<double>& reference
 void turn_as_made(const Scene& scene, const RendererInfo& shown, Renderer& referee, Capture& candidate) {
   if (!lacking_per_stage(scene, shown, Stage::window).empty()) return;
   try {
-    turn_triangles(candidate.records, referee.run_stage(scene, Stage::window, candidate).records);
+    const Capture made = run_by_conventions(referee, scene, Stage::window, candidate, shown.conventions);
+    turn_triangles(candidate.records, made.records);
   } catch (const std::exception&) {  // the stage's own row says so
   }
 }

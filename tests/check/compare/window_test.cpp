@@ -8,8 +8,8 @@ namespace plumbline::check {
 namespace {
 
 // Snapped again from its own position, as stage 4 does.
-void snap(WindowVertex<double>& v) {
-  for (int c = 0; c < 2; ++c) v.snapped[c] = static_cast<int>(std::nearbyint((v.p_win[c] - 0.5) * kSubpixel));
+void snap(WindowVertex<double>& v, const Conventions& grid = {}) {
+  for (int c = 0; c < 2; ++c) v.snapped[c] = static_cast<int>(snapped(grid, (v.p_win[c] - 0.5) * kSubpixel));
 }
 
 // A 96 x 64 frame. Of primitive 0 a triangle; of 2, which was cut, two of a fan of three, whose third has no snapped
@@ -67,6 +67,43 @@ struct Window : testing::Test {
   Records<double> records;
   WindowTriangle<double> thin;
 };
+
+Records<double> on_grid(Records<double> r, const Conventions& grid, bool has_last) {
+  r.triangles.back().front = true;
+  if (!has_last) r.triangles.pop_back();
+  for (WindowTriangle<double>& t : r.triangles) {
+    for (WindowVertex<double>& v : t.v) snap(v, grid);
+  }
+  return r;
+}
+
+// A triangle between two places of the grid of 1/256 pixel has an area on a finer one, and without any.
+TEST_F(Window, TrianglesHaveAnAreaOnTheDeclaredGrid) {
+  const double low = 50 + 0.3 / 256, high = 50 + 0.45 / 256;
+  records.triangles.back() = triangle_of({{{1, low, 0.25}, {90, low, 0.5}, {45, high, 0.75}}}, {1, 1, 1}, 3);
+  const auto& t = records.triangles.back();
+  records.polygons.polygons.pop_back();
+  records.polygons.vertices.resize(records.polygons.vertices.size() - 3);
+  add_polygon(records, 3, {t.v[2], t.v[0], t.v[1]});
+  Conventions grid;
+  for (const auto& [bits, has_area] : {std::pair(4, false), {8, false}, {10, true}, {Conventions::kFloat, true}}) {
+    grid.subpixel_bits = bits;
+    for (const bool is_there : {false, true}) {
+      const auto mine = on_grid(records, grid, is_there), exact = on_grid(records, grid, has_area);
+      EXPECT_EQ(passes(compare_window(scene, mine, exact, kFactor, grid)), is_there == has_area) << bits << " bits";
+    }
+  }
+}
+
+// The last triangle is there or not by rounding on a grid of 1/256 pixel, and on no other.
+TEST_F(Window, RoundingDecidesOnTheDeclaredGrid) {
+  Conventions grid;
+  for (const auto& [bits, is_open] : {std::pair(4, false), {8, true}, {12, false}}) {
+    grid.subpixel_bits = bits;
+    const auto mine = on_grid(records, grid, true), without = on_grid(records, grid, false);
+    EXPECT_EQ(passes(compare_window(scene, mine, without, kFactor, grid)), is_open) << bits << " bits";
+  }
+}
 
 // A clipper may leave triangles: each of primitive 2's, the last of which snapping may empty, is a polygon.
 TEST_F(Window, PolygonsOfOnePrimitiveAreJudgedTogether) {

@@ -147,6 +147,67 @@ TEST_F(ByConventions, DeclaredCornersAreInterpolatedBetween) {
   }
 }
 
+// Without perspective, the colour half way along the first side is the mean of its ends' whatever their distances are.
+TEST_F(ByConventions, AffineColoursAreThoseOfOneDistance) {
+  add_square();
+  Records<double>& r = candidate.records;
+  r.covered = covered_by(C::TieRule::left_bottom).records.covered;
+  r.triangles[0].v[1].color = glm::dvec4(0, 0, 0, 1), r.triangles[0].v[1].inv_w = 0.25;
+  const auto equal_ones = [&] {
+    Capture flat = candidate;
+    for (WindowTriangle<double>& t : flat.records.triangles) {
+      for (WindowVertex<double>& v : t.v) v.inv_w = 1;
+    }
+    return exact->run_stage(scene, Stage::attributes, flat).records.attributes[1].color;
+  }();
+  C c;
+  const auto color = [&] {
+    return run_by_conventions(*exact, scene, Stage::attributes, candidate, c).records.attributes[1].color;
+  };
+  const auto with_perspective = color();
+  c.interpolation = C::Interpolation::affine;
+  EXPECT_EQ(color(), equal_ones);
+  EXPECT_NE(with_perspective, equal_ones);
+  candidate.records.depth = run_by_conventions(*exact, scene, Stage::depth, candidate, c).records.depth;
+  EXPECT_EQ(r.depth, exact->run_stage(scene, Stage::depth, candidate).records.depth) << "depths are affine anyway";
+}
+
+// A triangle 0.3 steps of 1/256 pixel high, and of 0.45: on finer grids it has an area, which exact's does not have.
+TEST_F(ByConventions, WindowTrianglesHaveAnAreaOnTheDeclaredGrid) {
+  scene.meshes[0].triangles.resize(1);
+  Records<double>& r = candidate.records;
+  r.matrices.resize(1);
+  r.matrices[0].win_scale = {4, 3, 0.5}, r.matrices[0].win_translate = {4, 3, 0.5};
+  const auto corner = [&](double x, double y) {
+    return ClipVertex<double>{{(x - 4) / 4, (y - 3) / 3, 0, 1}, glm::dvec4(1), false};
+  };
+  r.polygons.vertices = {corner(1, 2.5 + 0.3 / 256), corner(7, 2.5 + 0.3 / 256), corner(4, 2.5 + 0.45 / 256)};
+  r.polygons.polygons = {{0, 0, 3}};
+  C c;
+  const auto triangles = [&] {
+    return run_by_conventions(*exact, scene, Stage::window, candidate, c).records.triangles;
+  };
+  for (const auto& [bits, rounding, has_area] :
+       {std::tuple(8, C::Rounding::nearest, false), std::tuple(4, C::Rounding::nearest, false),
+        std::tuple(10, C::Rounding::nearest, true), std::tuple(10, C::Rounding::down, false),
+        std::tuple(11, C::Rounding::up, true), std::tuple(C::kFloat, C::Rounding::nearest, true)}) {
+    c.subpixel_bits = bits, c.subpixel_rounding = rounding;
+    const auto made = triangles();
+    ASSERT_EQ(made.size(), has_area ? 1u : 0u) << bits << " bits";
+    if (made.empty()) continue;
+    EXPECT_TRUE(made[0].front);
+    for (const WindowVertex<double>& v : made[0].v) {
+      EXPECT_NEAR(v.p_win.y, 2.5 + (v.p_win.x == 4 ? 0.45 : 0.3) / 256, 1e-12);
+      EXPECT_EQ(v.snapped.y, static_cast<int>(snapped(c, (v.p_win.y - 0.5) * kSubpixel)));
+    }
+  }
+  c.subpixel_bits = 4, c.subpixel_rounding = C::Rounding::up;
+  r.polygons.vertices[2].p_clip.y -= 0.3 / 256 / 3;  // on either side of a place of the grid
+  EXPECT_EQ(triangles().size(), 0u);
+  r.polygons.vertices[2].p_clip.y += 0.3 / 256 / 3 - 0.6 / 256 / 3;
+  EXPECT_EQ(triangles().size(), 1u);
+}
+
 // Alpha 0.5 + 0.0001 is the code of 0.5, and greater in float.
 TEST_F(ByConventions, AlphasAreComparedAsTheyAreInFloat) {
   add_square();
