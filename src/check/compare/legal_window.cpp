@@ -177,11 +177,12 @@ std::vector<WindowCorner> LegalWindow::corners_of(const ClipPolygon& polygon, st
   const Matrices<double>& m = records_.matrices[draw];
   const std::vector<Vec4<double>>& back = records_.varyings[Varying::back_color].clipped;
   const bool two_sided = carries(scene_, scene_.draws[draw], Varying::back_color) && back.size() == vertices.size();
+  const Vec3<double> translate = m.win_translate + Vec3<double>(0.5 - conventions_.sample, 0);
   std::vector<WindowCorner> out;
   for (std::uint32_t i = polygon.first; i < polygon.first + polygon.count; ++i) {
     const ClipVertex<double>& v = vertices[i];
     WindowCorner& c = out.emplace_back();
-    c.vertex = {Vec3<double>(v.p_clip) / v.p_clip.w * m.win_scale + m.win_translate, 1 / v.p_clip.w, {}, v.color};
+    c.vertex = {Vec3<double>(v.p_clip) / v.p_clip.w * m.win_scale + translate, 1 / v.p_clip.w, {}, v.color};
     c.back_color = two_sided ? back[i] : v.color;
     c.error = error(polygon.primitive, c.vertex.p_win);
     const Vec3<double>& p = c.vertex.p_win;

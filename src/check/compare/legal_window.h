@@ -33,7 +33,7 @@ class LegalWindow {
  public:
   /// `records`: matrices and clip polygons of the renderer that is judged, with the varying back_color where faces have
   /// colours of their own. `factor`: of u of the magnitude of p_win, its error (ledger, exact.window). `conventions`: the
-  /// grid.
+  /// grid, and the sample, to whose pixel's centre window positions were moved (capture/by_conventions.h).
   LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area,
               const Conventions& conventions = {});
 

@@ -18,7 +18,8 @@ namespace {
 
 using C = Conventions;
 
-// ---- window: exact snaps to 1/256 pixel. Another grid is that of a window which is magnified about a pixel's centre.
+// ---- window: exact snaps to 1/256 pixel, and samples at centres. Another grid is that of a window which is magnified
+// about a pixel's centre; another sample is at the centre of a window that is moved (capture/by_conventions.h).
 
 constexpr int kFinestBits = 16;       // for renderers without a grid
 constexpr double kFarthest = 0x1p30;  // of snapped positions [steps of the grid]
@@ -56,7 +57,8 @@ Capture window_on_grid(Renderer& referee, const Scene& scene, const Capture& in,
                bias = 0.5 + bias_of(conventions.subpixel_rounding) / kSubpixel;
   Capture magnified = in;
   for (Matrices<double>& m : magnified.records.matrices) {
-    for (int i = 0; i < 2; ++i) m.win_scale[i] *= times, m.win_translate[i] = (m.win_translate[i] - 0.5) * times + bias;
+    for (int i = 0; i < 2; ++i)
+      m.win_scale[i] *= times, m.win_translate[i] = (m.win_translate[i] - conventions.sample[i]) * times + bias;
   }
   Capture out = referee.run_stage(scene, Stage::window, magnified);
   for (WindowTriangle<double>& t : out.records.triangles) {
@@ -249,7 +251,8 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
   const Records<double>& r = in.records;
   switch (stage) {
     case Stage::window: {
-      const bool is_dialects = conventions.subpixel_bits == 8 && conventions.subpixel_rounding == C::Rounding::nearest;
+      const bool is_dialects = conventions.subpixel_bits == 8 && conventions.sample == glm::dvec2(0.5) &&
+                               conventions.subpixel_rounding == C::Rounding::nearest;
       if (is_dialects || r.matrices.size() != scene.draws.size()) break;
       return window_on_grid(referee, scene, in, conventions);
     }

@@ -19,7 +19,7 @@ bool draws_otherwise(const Conventions& conventions, Stage stage);
 bool knows_ties(const Scene& scene, const Conventions& conventions);
 
 /// referee.run_stage(scene, stage, in), but for what the conventions say otherwise than OpenGL:
-/// - window: triangles have an area and face the front on the declared grid; on one of 16 bits, or fewer where positions
+/// - window: positions are moved as to_dialect() moves them; triangles have an area and face the front on the declared grid; on one of 16 bits, or fewer where positions
 ///   on it do not fit 31 bits, where corners are not snapped;
 /// - coverage: where knows_ties(), triangles own samples on their edges by the declared rule;
 /// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between which

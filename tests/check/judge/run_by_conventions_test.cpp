@@ -201,7 +201,12 @@ TEST_F(ByConventions, WindowTrianglesHaveAnAreaOnTheDeclaredGrid) {
       EXPECT_EQ(v.snapped.y, static_cast<int>(snapped(c, (v.p_win.y - 0.5) * kSubpixel)));
     }
   }
-  c.subpixel_bits = 4, c.subpixel_rounding = C::Rounding::up;
+  c.sample = {0, 0.25};
+  const auto moved = triangles();
+  ASSERT_EQ(moved.size(), 1u);
+  for (const WindowVertex<double>& v : moved[0].v)
+    EXPECT_NEAR(v.p_win.y, 2.75 + (v.p_win.x == 4.5 ? 0.45 : 0.3) / 256, 1e-12) << "the sample is moved to the centre";
+  c.sample = {0.5, 0.5}, c.subpixel_bits = 4, c.subpixel_rounding = C::Rounding::up;
   r.polygons.vertices[2].p_clip.y -= 0.3 / 256 / 3;  // on either side of a place of the grid
   EXPECT_EQ(triangles().size(), 0u);
   r.polygons.vertices[2].p_clip.y += 0.3 / 256 / 3 - 0.6 / 256 / 3;
