@@ -75,6 +75,10 @@ void derive_normals(const DrawIndex& draws, Records<double>& r) {
 }
 
 void derive_cut(const DrawIndex& draws, Records<double>& r) {
+  if (r.vertices.empty()) {
+    for (ClipVertex<double>& corner : r.polygons.vertices) corner.cut = true;
+    return;
+  }
   if (r.vertices.size() != draws.vertices() && !r.polygons.polygons.empty())
     throw std::invalid_argument("clip.cut: left out, and vertex.* are not there for all vertices");
   for (const ClipPolygon& polygon : r.polygons.polygons) {

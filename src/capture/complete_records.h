@@ -11,16 +11,17 @@ namespace plumbline {
 /// order is judged by the frame.
 ///
 /// Fills the columns named in `capture.derived`, and clears that set: vertex.n_eye from the capture's matrices and the
-/// mesh; clip.cut: false where p_clip equals, in float, that of one of the primitive's vertices; window.snapped from
-/// p_win and the conventions, window.front from the snapped area, window.corners and window.width from the mesh and the
-/// draw; texture.lod with NaN, for it follows from nothing that is recorded.
+/// mesh; clip.cut: false where p_clip equals, in float, that of one of the primitive's vertices (true where there are no
+/// vertices, and clip is not judged); window.snapped from p_win and the conventions, window.front from the area on their
+/// grid, window.corners and window.width from the mesh and the draw; texture.lod with NaN, for it follows from nothing
+/// that is recorded.
 ///
 /// Rounds planes.depth to the nearest codes where it was read from floats, or is double's roundings (2^-50) from a code,
 /// and to float where the format is z32f.
 ///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
-/// n_eye without matrices, of cut without vertices, of a p_win that cannot be snapped, of a position beyond 2^22 pixels
-/// or a width beyond 64, of front and corners where a draw's polygons are not filled.
+/// n_eye without matrices, of cut where some vertices are lacking, of a p_win that cannot be snapped, of a position
+/// beyond 2^22 pixels or a width beyond 64, of front and corners where a draw's polygons are not filled.
 void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions = {});
 
 }  // namespace plumbline

@@ -204,6 +204,9 @@ TEST(CompleteRecords, refuse_what_nothing_follows_from) {
   capture.derived = {"clip.cut"};
   capture.records.vertices.pop_back();
   expect_refused(scene, capture, "clip.cut: left out, and vertex.* are not there for all vertices");
+  capture.records.vertices.clear();
+  complete_records(scene, capture);
+  EXPECT_TRUE(std::ranges::all_of(capture.records.polygons.vertices, &ClipVertex<double>::cut)) << "none is known";
   capture = whole_capture(scene);
   capture.records.triangles[2].primitive = 1u << 31;
   expect_refused(scene, capture, "window.primitive: record 2 is of primitive 2147483648");
