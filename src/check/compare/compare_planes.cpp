@@ -359,10 +359,11 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
 
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
                           const Legal& bounds, const Conventions& conventions) {
+  const bool shows_depth = !candidate.depth.empty();
   std::string why;
-  if (!same_size(candidate.depth, exact.depth, why) || !same_size(candidate.depth, candidate.color, why)) {
+  if (shows_depth &&
+      !(same_size(candidate.depth, exact.depth, why) && same_size(candidate.depth, candidate.color, why)))
     return mismatch("half code", why, candidate.depth.size());
-  }
   const double scale = color_scale(scene.frame.color);
   const bool codes = scale > 0;
   const double unit = codes ? 0.5 / scale + 4 * u : u;
@@ -384,12 +385,11 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
       // The clear colour, one for all pixels, may be rounded, and encoded, otherwise than fragments are.
       if (is_cleared(x, y)) off = std::min(off, outside(v, low[c], high[c]));
       meter.value(off / unit, codes ? factor : 0, {x, y, id, "color", true}, v, least);
+      const double code = std::clamp(std::round(scale * v), 0.0, scale);
+      const bool is_code = !codes || std::abs(scale * v - code) <= scale * 2 * u;
+      meter.value(is_code ? 0 : kInfinite, 0, {x, y, id, "no code", true}, scale * v, code);
     }
-    for (int c = 0; codes && c < 4; ++c) {
-      const double v = scale * static_cast<double>(candidate.color(x, y)[c]),
-                   code = std::clamp(std::round(v), 0.0, scale);
-      meter.value(std::abs(v - code) <= scale * 2 * u ? 0 : kInfinite, 0, {x, y, id, "no code", true}, v, code);
-    }
+    if (!shows_depth) return;
     const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);
     meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0, {x, y, id, "z, in steps", true}, z,
                 z_ref);

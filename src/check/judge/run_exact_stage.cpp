@@ -180,8 +180,10 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
       const auto compare = [&](double f) {
         return compare_merge(c.scene, c.candidate.planes, expected, f, made.legal, c.conventions);
       };
-      if (c.scene.frame.color == ColorFormat::rgba32f) return c.add(name, stage, compare(1));
-      return add(compare, "codes");
+      const std::string note = c.candidate.planes.depth.empty() ? "its colour alone: it shows no planes.depth" : "";
+      if (c.scene.frame.color == ColorFormat::rgba32f) return c.add(name, stage, compare(1), nullptr, note);
+      const Tolerance& row = tolerance(Profile::exact, stage, "codes");
+      return c.add(name, stage, compare(row.factor), &row, note);
     }
     case Stage::resolve: break;  // of passes together (judge_passes.h)
   }

@@ -51,6 +51,9 @@ TEST_F(PlanePairs, WithoutThePlaneThatDecidesFailsAndDoesNotCrash) {
     EXPECT_FALSE(passes(run(compare, no_id, no_id))) << "nothing was compared";
   }
   EXPECT_TRUE(passes(run(merge(), no_id, no_id))) << "merge needs no winners";
+  const PlaneChange no_depth = [](Planes& p) { p.depth = {}; };
+  EXPECT_TRUE(passes(run(merge(), no_depth))) << "nor depths, but exact's";
+  EXPECT_FALSE(passes(run(merge(), kUnchangedPlanes, no_depth)));
   const PlaneChange no_sum = [](Planes& p) { p.id_sum = {}; };
   EXPECT_FALSE(passes(run(coverage(), no_sum, no_sum)));
 }
