@@ -20,29 +20,44 @@ constexpr std::size_t kTurns = 3;
 using Run = std::span<const WindowTriangle<double>>;
 using Turns = std::array<bool, kTurns>;
 
-bool is_near(double a, double b) { return std::abs(a - b) <= 1e-3 * std::max(1.0, std::abs(b)); }
+constexpr double kNear = 1e-3, kRoundings = 1e-6;  // relative differences
 
-// Numbers of a corner that are those of the other: x, y, z, 1/w, and the colour as one.
-int numbers_alike(const WindowVertex<double>& a, const WindowVertex<double>& b) {
-  int out = is_near(a.inv_w, b.inv_w) ? 1 : 0;
-  for (int c = 0; c < 3; ++c) out += is_near(a.p_win[c], b.p_win[c]) ? 1 : 0;
-  bool is_color = true;
-  for (int c = 0; c < 4; ++c) is_color = is_color && is_near(a.color[c], b.color[c]);
-  return out + (is_color ? 1 : 0);
+double apart(double a, double b) { return std::abs(a - b) / std::max(1.0, std::abs(b)); }
+
+// How many numbers of a triangle are those of another, and how far apart these are.
+struct Fit {
+  int alike = 0;
+  double apart = 0;
+  void add(double difference) {
+    if (!(difference <= kNear)) return;
+    ++alike;
+    apart += difference;
+  }
+  bool operator<(const Fit& other) const { return alike != other.alike ? alike < other.alike : apart > other.apart; }
+};
+
+// Numbers of a corner: x, y, z, 1/w, and the colour as one.
+void add_corner(Fit& fit, const WindowVertex<double>& a, const WindowVertex<double>& b) {
+  fit.add(apart(a.inv_w, b.inv_w));
+  for (int c = 0; c < 3; ++c) fit.add(apart(a.p_win[c], b.p_win[c]));
+  double color = 0;
+  for (int c = 0; c < 4; ++c) color = std::max(color, apart(a.color[c], b.color[c]));
+  fit.add(color);
 }
 
-// Turns under which as many numbers as possible are those of one of `theirs`.
+// Turns under which as many numbers as possible are those of one of `theirs`, and of these the nearest, but for roundings.
 Turns best_turns(const WindowTriangle<double>& mine, Run theirs) {
-  std::array<int, kTurns> most{};
+  std::array<Fit, kTurns> fits;
   for (const WindowTriangle<double>& other : theirs) {
     for (std::size_t turn = 0; turn < kTurns; ++turn) {
-      int alike = 0;
-      for (std::size_t k = 0; k < 3; ++k) alike += numbers_alike(mine.v[(k + turn) % 3], other.v[k]);
-      most[turn] = std::max(most[turn], alike);
+      Fit fit;
+      for (std::size_t k = 0; k < 3; ++k) add_corner(fit, mine.v[(k + turn) % 3], other.v[k]);
+      fits[turn] = std::max(fits[turn], fit);
     }
   }
-  const int best = *std::ranges::max_element(most);
-  return {most[0] == best, most[1] == best, most[2] == best};
+  const Fit best = std::max({fits[0], fits[1], fits[2]});
+  const auto is_best = [&](const Fit& fit) { return fit.alike == best.alike && fit.apart <= best.apart + kRoundings; };
+  return {is_best(fits[0]), is_best(fits[1]), is_best(fits[2])};
 }
 
 template <class Corners>

@@ -63,6 +63,22 @@ TEST(TurnTriangles, SeesWrongPositionsByTheOtherNumbers) {
   expect_in_order(mine, theirs);
 }
 
+// A triangle so small that each corner is near the others: the nearest turn counts.
+TEST(TurnTriangles, TurnsATriangleOfNearCornersToTheNearest) {
+  Records<double> theirs = two_triangles();
+  for (std::size_t k = 0; k < 3; ++k) {
+    theirs.triangles[1].v[k] = theirs.triangles[1].v[0];
+    theirs.triangles[1].v[k].inv_w += 1e-4 * static_cast<double>(k);
+  }
+  for (const std::ptrdiff_t by : {0, 1, 2}) {
+    Records<double> mine = theirs;
+    turn(mine, 1, by);
+    for (WindowVertex<double>& v : mine.triangles[1].v) v.p_win.x += 1e-8;
+    turn_triangles(mine, theirs);
+    expect_in_order(mine, theirs);
+  }
+}
+
 // Triangle whose corners no number tells apart: it takes the usual turn; without one, none.
 TEST(TurnTriangles, TakesTheUsualTurnWhereNoneIsBetter) {
   Records<double> theirs = two_triangles();
