@@ -30,11 +30,13 @@ std::vector<pid_t> processes_of(const std::string& mark) {
 }
 
 // Whether a process of plumb's is ending: its environment is gone, and its files, with their locks, are not yet closed.
+// They are closed by the last of its threads; the first may be a zombie long before.
 bool is_one_ending() {
   for (const auto& entry : fs::directory_iterator("/proc")) {
     if (std::atoi(entry.path().filename().c_str()) == 0) continue;
     const std::string status = read(entry.path() / "status");
-    const bool is_closed = status.find("\nState:\tZ") != std::string::npos;
+    const bool is_closed =
+        status.find("\nState:\tZ") != std::string::npos && status.find("\nThreads:\t1\n") != std::string::npos;
     if (status.starts_with("Name:\tplumb\n") && !is_closed && read(entry.path() / "environ").empty()) return true;
   }
   return false;
