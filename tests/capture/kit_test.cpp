@@ -1,12 +1,15 @@
-// The kit's table of arrays is what captures hold.
+// The kit's tables of arrays and conventions are what captures and conventions files hold.
 #include <fstream>
+#include <map>
 #include <set>
 #include <string>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "capture/conventions.h"
 #include "capture/files/capture_columns.h"
 
 namespace plumbline {
@@ -65,6 +68,32 @@ TEST(Kit, ItsTableListsEveryArray) {
                             });
     EXPECT_TRUE(!of_capture || expected.rows.contains(row)) << "no array: " << row;
   }
+}
+
+TEST(Kit, ItsTableListsEveryConvention) {
+  std::ifstream readme(PLUMBLINE_SOURCE_DIR "/src/kit/README.md");
+  ASSERT_TRUE(readme);
+  std::map<std::string, std::string> rows;  // by key
+  for (std::string line; std::getline(readme, line);) {
+    const std::size_t cell = line.find(" | ");
+    if (!line.starts_with("| `") || cell == std::string::npos) continue;
+    for (std::size_t at = line.find('`'); at < cell; at = line.find('`', line.find('`', at + 1) + 1))
+      rows[line.substr(at + 1, line.find('`', at + 1) - at - 1)] = line.substr(cell);
+  }
+  each_choice([&](const ConventionWords& words, auto member) {
+    using Choice = std::remove_reference_t<decltype(Conventions().*member)>;
+    const std::string row = rows[std::string(words.name)];
+    EXPECT_LT(row.find(fmt::format("\"{}\"", name_of(Conventions().*member))), 5u)
+        << words.name << ": first its default";
+    for (const Name& value : kNamesOf<Choice>)
+      EXPECT_NE(row.find(fmt::format("\"{}\"", value)), std::string::npos) << words.name << " lacks " << value;
+  });
+  each_number_of_bits([&](const ConventionWords& words, auto member) {
+    const int bits = Conventions().*member;
+    const std::string first = bits == Conventions::kFloat ? "\"float\"" : std::to_string(bits);
+    EXPECT_TRUE(rows[std::string(words.name)].starts_with(" | " + first)) << words.name;
+  });
+  for (const ConventionWords& words : {kSampleWords, kOffsetWords}) EXPECT_TRUE(rows.contains(std::string(words.name)));
 }
 
 }  // namespace

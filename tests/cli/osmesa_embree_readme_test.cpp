@@ -120,7 +120,6 @@ class KitReadme : public Cli {
       fs::create_directories(folder_ / name);
       fs::copy(fs::path(PLUMBLINE_SOURCE_DIR) / name, folder_ / name, fs::copy_options::recursive);
     }
-    fs::create_directory(folder_ / "build");
     const std::size_t fence = text_.find("```\n", text_.find("## The first ten minutes")) + 4;
     write(folder_ / "commands", text_.substr(fence, text_.find("```", fence) - fence));
   }
