@@ -81,7 +81,7 @@ static void write_pixel(Frame *frame, const State *state, int x, int y, double z
   if (!drawn) return;
   if (state->write_depth) frame->depth[i] = z;
   for (c = 0; c < 4; ++c) {
-    if (state->write_color[c]) frame->color[4 * i + c] = as_code(clamp(color[c], 0, 1), frame->color_codes);
+    if (state->write_color[c]) frame->color[4 * i + c] = as_code(color[c], frame->color_codes);
   }
 }
 
