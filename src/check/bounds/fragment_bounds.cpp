@@ -187,13 +187,14 @@ std::optional<WindowTriangle<double>> FragmentBounds::as_color(std::size_t i, Va
 }
 
 Vec4<double> FragmentBounds::cut_error(std::uint32_t primitive, const std::vector<Vec4<double>>& column) const {
-  const auto& [vertices, polygons] = records_.polygons;
+  const ClipPolygons<double>& clip = records_.polygons;
   const auto is_cut = [&](const ClipPolygon& polygon) {
-    const auto corners = std::span(vertices).subspan(polygon.first, polygon.count);
+    const auto corners = std::span(clip.vertices).subspan(polygon.first, polygon.count);
     return std::ranges::any_of(corners, &ClipVertex<double>::cut);
   };
-  const auto of_primitive = std::ranges::equal_range(polygons, primitive, {}, &ClipPolygon::primitive);
-  if (std::ranges::none_of(of_primitive, is_cut)) return Vec4<double>(0);
+  const auto first = std::ranges::lower_bound(clip.polygons, primitive, {}, &ClipPolygon::primitive),
+             last = std::ranges::upper_bound(clip.polygons, primitive, {}, &ClipPolygon::primitive);
+  if (std::none_of(first, last, is_cut)) return Vec4<double>(0);
   return tolerance(Profile::opengl, Stage::clip).factor * u * largest_of(primitive, column, false);
 }
 
