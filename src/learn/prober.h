@@ -52,7 +52,7 @@ class Prober {
   void unexplained(std::string finding) { learned.conventions.unexplained.push_back(std::move(finding)); }
 
   Learned learned;
-  /// Of every draw of the probes: where their draws lie over each other, the later one is the nearer.
+  /// Depth function of all draws of the probes. Where draws lie over each other, the later one is the nearer.
   DepthFunc depth_func = DepthFunc::always;
 
  private:

@@ -30,7 +30,7 @@ std::vector<pid_t> processes_of(const std::string& mark) {
 }
 
 // Whether a process of plumb's is ending: its environment is gone, and its files, with their locks, are not yet closed.
-// They are closed by the last of its threads; the first may be a zombie long before.
+// The last of its threads closes them; the first may be a zombie long before.
 bool is_one_ending() {
   for (const auto& entry : fs::directory_iterator("/proc")) {
     if (std::atoi(entry.path().filename().c_str()) == 0) continue;

@@ -45,8 +45,8 @@ int bits_of_grid(const Scene& scene, const Records<double>& r, const C& conventi
   return bits;
 }
 
-// What is added to a position, so that the nearest whole number is that which the rounding makes of it [steps]. Positions
-// less than 2^-20 from one count as it.
+// Offset of a position [steps] whose nearest whole number is then the one that the rounding makes of it. A position
+// less than 2^-20 from a whole number counts as that.
 double bias_of(C::Rounding rounding) {
   constexpr double kHalf = 0.5 - 0x1p-20;
   return rounding == C::Rounding::down ? -kHalf : rounding == C::Rounding::up ? kHalf : 0;
@@ -159,8 +159,8 @@ bool is_turned_over(const WindowTriangle<double>& t) {
   return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0 ? snapped <= 0 : snapped >= 0);
 }
 
-// Snapped corners that face as the unsnapped ones; exact reads nothing but the facing from them. (It interpolates between
-// the snapped corners of triangles that snapping turns over: reference/exact/barycentric.h.)
+// Snapped corners that face as the unsnapped ones; exact reads nothing but the facing from them. (It interpolates
+// between the snapped corners of triangles that snapping turns over: reference/exact/barycentric.h.)
 void face_as_it_lies(WindowTriangle<double>& t) {
   if (!is_turned_over(t)) return;
   const int up = twice_area(t, kAsItLies) > 0 ? kSubpixel : -kSubpixel;
