@@ -20,6 +20,7 @@ struct Conventions {
   enum class TieRule { any, left_bottom, left_top, right_bottom, right_top, inclusive, exclusive };
   enum class DepthRange { zero_to_one, minus_one_to_one, one_to_zero };
   enum class Depth { as_asked, z16, z24, z32f };
+  enum class DepthArithmetic { in_double, in_float };
   enum class Encoding { linear, srgb };
   enum class ClipDepth { minus_w_to_w, zero_to_w };
   enum class DepthPlanes { cut, clamped };
@@ -46,6 +47,7 @@ struct Conventions {
   DepthRange depth_range = DepthRange::zero_to_one;
   Depth depth_format = Depth::as_asked;
   Rounding depth_rounding = Rounding::nearest;
+  DepthArithmetic depth_arithmetic = DepthArithmetic::in_double;
   Rounding color_rounding = Rounding::nearest;
   Encoding color_encoding = Encoding::linear;
   ClipDepth clip_depth = ClipDepth::minus_w_to_w;
@@ -80,6 +82,8 @@ inline constexpr std::array<Name, 3> kNamesOf<Conventions::DepthRange> = {"zero_
                                                                           "one_to_zero"};
 template <>
 inline constexpr std::array<Name, 4> kNamesOf<Conventions::Depth> = {"as_asked", "z16", "z24", "z32f"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::DepthArithmetic> = {"in_double", "in_float"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Encoding> = {"linear", "srgb"};
 template <>
@@ -133,6 +137,7 @@ void each_choice(Visit visit) {
         &C::depth_range);
   visit(ConventionWords{"depth_format", "the depth buffer's format", false}, &C::depth_format);
   visit(ConventionWords{"depth_rounding", "how depths become codes", true}, &C::depth_rounding);
+  visit(ConventionWords{"depth_arithmetic", "the numbers that depths are interpolated in", true}, &C::depth_arithmetic);
   visit(ConventionWords{"color_rounding", "how colours become codes", false}, &C::color_rounding);
   visit(ConventionWords{"color_encoding", "what codes of colours stand for", false}, &C::color_encoding);
   visit(ConventionWords{"clip_depth", "the view volume in z", false}, &C::clip_depth);

@@ -19,6 +19,7 @@ const std::vector<Probe>& probes() {
       {learn_clipping, {"clip_depth", "depth_planes"}},
       {learn_depths, {"depth_range", "depth_format", "depth_rounding"}},
       {learn_grid, {kSampleWords.name, "subpixel_bits", "subpixel_rounding"}},
+      {learn_depth_arithmetic, {"depth_arithmetic"}},
       {learn_ties, {"tie_rule"}},
       {learn_colors, {"color_rounding", "color_encoding"}},
       {learn_interpolation, {"interpolation"}},

@@ -1,4 +1,4 @@
-// Order of rows; range, format and rounding of depths.
+// Order of rows; range, format, rounding and arithmetic of depths.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -205,6 +205,79 @@ void learn_depths(Prober& prober) {
                    fmt::format("0.125, 0.25, 0.5, 0.75 and 0.875 are left as {:.4g}, {:.4g}, {:.4g}, {:.4g} and {:.4g}",
                                (*left)[0], (*left)[1], (*left)[2], (*left)[3], (*left)[4]));
   for (const char* name : {"depth_format", "depth_rounding"}) prober.open(words_of(name), "the range is open");
+}
+
+namespace {
+
+// A triangle of depths that are multiples of 2^-16, with corners on whole pixels: only its interpolation rounds.
+struct SlopedTriangle {
+  std::array<glm::dvec3, 3> p_win = {glm::dvec3(2, 1, 9973 / 65536.0), glm::dvec3(61, 5, 39019 / 65536.0),
+                                     glm::dvec3(7, 58, 60013 / 65536.0)};
+  // Twice the areas that the point makes with the edges opposite each corner [pixel^2].
+  glm::dvec3 areas(glm::dvec2 p) const {
+    const auto area = [&](const glm::dvec3& a, const glm::dvec3& b) {
+      return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    };
+    return {area(p_win[1], p_win[2]), area(p_win[2], p_win[0]), area(p_win[0], p_win[1])};
+  }
+  bool holds(glm::dvec2 p) const {
+    constexpr double kInside = 120;  // two pixels from the longest edge
+    const glm::dvec3 a = areas(p);
+    return std::min({a.x, a.y, a.z}) > kInside;
+  }
+  double depth(glm::dvec2 p) const {
+    const glm::dvec3 a = areas(p);
+    return glm::dot(a, glm::dvec3(p_win[0].z, p_win[1].z, p_win[2].z)) / (a.x + a.y + a.z);
+  }
+};
+
+// The format of depths that a frame of 24 bits is left in.
+DepthFormat format_of_24(C::Depth format) {
+  return format == C::Depth::z16 ? DepthFormat::z16 : format == C::Depth::z32f ? DepthFormat::z32f : DepthFormat::z24;
+}
+
+}  // namespace
+
+// Pixels of a sloped triangle, each held to the interval of depths that round to what is left.
+void learn_depth_arithmetic(Prober& prober) {
+  // Planes evaluated in float from the window's origin: 4 roundings, of the depth, of both slopes over the pixel's and
+  // the triangle's distance, and of the gradients, together less than 4; and u for a code (compare_depth()).
+  constexpr double kDoubleError = 1e-3, kFloatError = (4 * 4 + 1) * 0x1p-24;  // [step], [window z]
+  const ConventionWords words = words_of("depth_arithmetic");
+  C& c = prober.learned.conventions;
+  for (const char* name : {"depth_format", "depth_rounding"}) {
+    if (prober.is_open(name)) return prober.open(words, fmt::format("{} is open", name));
+  }
+  const SlopedTriangle triangle;
+  const auto& p = triangle.p_win;
+  const std::array<std::array<ProbeCorner, 3>, 1> corners = {{{{{p[0]}, {p[1]}, {p[2]}}}}};
+  Scene scene = probe_frame("depth_arithmetic", 64, 64);
+  add_triangles(scene, corners);
+  scene.frame.depth = DepthFormat::z24;
+  const Plane<double> left = prober.draw(scene).depth;
+  if (left.empty()) return prober.open(words, "it leaves no planes.depth");
+  const DepthFormat format = format_of_24(c.depth_format);
+  std::size_t pixels = 0, in_double = 0, in_float = 0;
+  double most = 0;  // [step]
+  for (int y = 0; y < left.height(); ++y) {
+    for (int x = 0; x < left.width(); ++x) {
+      const glm::dvec2 sample = glm::dvec2(x, y) + c.sample;
+      if (!triangle.holds(sample)) continue;
+      const double z = triangle.depth(sample), step = depth_step(format, z),
+                   off = farther(0, (left(x, y) - z) / step + middle_of(c.depth_rounding)) - 0.5;
+      most = std::max(most, off);
+      ++pixels;
+      in_double += off <= kDoubleError ? 1 : 0;
+      in_float += off * step <= kFloatError ? 1 : 0;
+    }
+  }
+  const std::string evidence =
+      fmt::format("{} of {} depths of a triangle are rounded from the exact depth", in_double, pixels);
+  if (in_double == pixels) return prober.found(words, name_of(C::DepthArithmetic::in_double), evidence);
+  const std::string others = fmt::format("{}; others by up to {:.3g} steps more than rounding", evidence, most);
+  if (in_float < pixels) return prober.fits_none(words, others);
+  c.depth_arithmetic = C::DepthArithmetic::in_float;
+  prober.found(words, name_of(c.depth_arithmetic), others);
 }
 
 // A rectangle moved towards the eye by many units, in depths of 24 and of 16 bits, beside one that is not.

@@ -72,6 +72,7 @@ void learn_rows(Prober& prober);
 void learn_clipping(Prober& prober);
 void learn_depths(Prober& prober);
 void learn_grid(Prober& prober);
+void learn_depth_arithmetic(Prober& prober);
 void learn_ties(Prober& prober);
 void learn_colors(Prober& prober);
 void learn_interpolation(Prober& prober);

@@ -130,6 +130,28 @@ TEST(Learn, RowsAndDepthsThatAreLeftOtherwiseAreFound) {
             C::Depth::z16);
 }
 
+// Depths that no other probe looks at are some codes off: float arithmetic up to a bound, and a finding beyond it.
+TEST(Learn, DepthsInFloatAreFound) {
+  const auto off_by = [](double codes) {
+    return [codes](Capture& c) {
+      for (int y = 0; y < c.planes.depth.height(); ++y) {
+        for (int x = 3; x < c.planes.depth.width(); x += 8) c.planes.depth(x, y) += codes / 16777215;
+      }
+    };
+  };
+  const auto learned_of = [&](double codes) {
+    return learned(std::make_unique<Altered>(pipeline::make_pipeline(), off_by(codes)));
+  };
+  EXPECT_EQ(learned_of(0).depth_arithmetic, C::DepthArithmetic::in_double);
+  for (const double codes : {1.0, -15.0}) EXPECT_EQ(learned_of(codes).depth_arithmetic, C::DepthArithmetic::in_float);
+  const C wrong = learned_of(20);
+  EXPECT_EQ(wrong.depth_arithmetic, C::DepthArithmetic::in_double);
+  EXPECT_TRUE(std::ranges::any_of(wrong.unexplained,
+                                  [](const std::string& line) { return line.starts_with("depth_arithmetic: "); }));
+  const C none = learned_of(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NE(std::ranges::find(none.open, "depth_arithmetic"), none.open.end());
+}
+
 // What is nonsense leaves conventions open, at their defaults.
 TEST(Learn, NonsenseIsOpen) {
   const auto of = [](const Alter& alter) {

@@ -158,7 +158,7 @@ struct Position {
   }
 };
 
-// Error: 10 u of a mean of terms of up to 2.4 times the largest corner (check/bounds/bounds.h, bounds_of_mean), of x
+// Error: 10 u of a mean of terms of up to 2.4 times the largest corner (check/bounds/mean_bounds.h, bounds_of_mean), of x
 // and of w, over w; and of the corners' window positions 4 u of the frame's 2 NDC.
 TEST(Program, CutTrianglesVaryingsAreThoseOfTheirPixels) {
   const Position program{{glm::vec4(-3, -2, -6, -4), {9, -5, 7, 8}, {-2, 6, 3, 4}}};  // the first lies behind the eye

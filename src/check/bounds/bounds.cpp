@@ -6,22 +6,11 @@
 #include <span>
 #include <utility>
 
+#include "check/bounds/barycentrics.h"
+
 namespace plumbline::check {
 
 namespace {
-
-// Barycentric weights at a point, and their slopes [1/pixel]. Triangle: of the unsnapped corners (stages.h, 6); of the
-// snapped ones where the unsnapped area contradicts the facing. Line: by projection.
-struct Barycentrics {
-  Vec3<double> value, d_dx, d_dy;
-};
-
-Barycentrics along_line(const WindowTriangle<double>& t, double x, double y) {
-  const Vec2<double> a(t.v[0].p_win), d = Vec2<double>(t.v[1].p_win) - a;
-  const double square = glm::dot(d, d), of = square > 0 ? 1 / square : 0;
-  const double share = glm::dot(Vec2<double>(x, y) - a, d) * of;
-  return {{1 - share, share, 0}, {-d.x * of, d.x * of, 0}, {-d.y * of, d.y * of, 0}};
-}
 
 // Depth and colour at a share of the way along a line.
 struct OfLine {
@@ -38,26 +27,6 @@ double distance_from_line(const WindowTriangle<double>& t, double x, double y) {
   const Vec2<double> a(t.v[0].p_win), b(t.v[1].p_win);
   const double share = std::clamp(along_line(t, x, y).value[1], 0.0, 1.0);
   return glm::distance(Vec2<double>(x, y), a + share * (b - a));
-}
-
-Barycentrics barycentrics(const WindowTriangle<double>& t, double x, double y) {
-  if (t.corners < 3) return along_line(t, x, y);
-  Vec2<double> p[3];
-  for (std::size_t i = 0; i < 3; ++i) p[i] = Vec2<double>(t.v[i].p_win);
-  const auto area = [&] { return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x); };
-  double a = area();
-  if (!(t.front ? a > 0 : a < 0)) {
-    for (std::size_t i = 0; i < 3; ++i) p[i] = Vec2<double>(t.v[i].snapped) / 256.0 + 0.5;
-    a = area();
-  }
-  Barycentrics out;
-  for (int i = 0; i < 3; ++i) {
-    const Vec2<double> from = p[(i + 1) % 3], to = p[(i + 2) % 3];
-    out.d_dx[i] = (from.y - to.y) / a;
-    out.d_dy[i] = (to.x - from.x) / a;
-    out.value[i] = out.d_dx[i] * (x - from.x) + out.d_dy[i] * (y - from.y);
-  }
-  return out;
 }
 
 }  // namespace
@@ -114,10 +83,6 @@ double gradient_bound(const WindowTriangle<double>& t, double f0, double f1, dou
   const double range = std::max(std::abs(f1 - f0), std::abs(f2 - f0));
   return c.longest / c.area * range + c.share * c.longest * steepest;
 }
-
-}  // namespace
-
-namespace {
 
 // bounds_from_origin() by the barycentrics `b`.
 PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, int x, int y) {
@@ -298,88 +263,6 @@ std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corn
       out.push_back(value);
   }
   return out;
-}
-
-PlaneValue color_of_plane(const WindowTriangle<double>& t, int x, int y) {
-  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
-  const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
-  const double q = glm::dot(b.value, inv_w);
-  const auto sum = [&](const Vec3<double>& weights, const Vec4<double>& from) {
-    Vec4<double> out(0);
-    for (int i = 0; i < 3; ++i) out += weights[i] * inv_w[i] / q * (t.v[static_cast<std::size_t>(i)].color - from);
-    return out;
-  };
-  const Vec4<double> value = sum(b.value, Vec4<double>(0));
-  return {value, sum(b.d_dx, value), sum(b.d_dy, value)};
-}
-
-Vec4<double> slope_rounding(const WindowTriangle<double>& t, int x, int y) {
-  constexpr double kRounding = 0x1p-51, kPixels = 128;
-  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
-  const PlaneValue plane = color_of_plane(t, x, y);
-  const Vec4<double> size = glm::abs(plane.value), slope = glm::max(glm::abs(plane.d_dx), glm::abs(plane.d_dy));
-  double q = 0, q_slope = 0, q_error = 0, q_slope_error = 0;
-  Vec4<double> error(0), slope_error(0);  // of c/w and its slope
-  for (int i = 0; i < 3; ++i) {
-    const WindowVertex<double>& v = t.v[static_cast<std::size_t>(i)];
-    const double steep = std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]), terms = kRounding * std::abs(v.inv_w);
-    q += b.value[i] * v.inv_w;
-    q_slope += steep * std::abs(v.inv_w);
-    q_error += terms * (1 + kPixels * steep);
-    q_slope_error += terms * steep;
-    error += terms * (1 + kPixels * steep) * glm::abs(v.color);
-    slope_error += terms * steep * glm::abs(v.color);
-  }
-  q = std::abs(q);
-  return (slope_error + size * q_slope_error + (error + size * q_error) * (q_slope / q) + slope * q_error) / q;
-}
-
-double depth_rounding(const WindowTriangle<double>& t) {
-  constexpr double kTerms = 6 * 0x1p-53, kPixels = 128;
-  const auto& v = t.v;
-  const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
-  const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
-  const double slopes = std::abs(glm::dot(b.d_dx, z)) + std::abs(glm::dot(b.d_dy, z));
-  const double out = kTerms * (std::max({std::abs(z.x), std::abs(z.y), std::abs(z.z)}) + kPixels * slopes);
-  return std::isfinite(out) ? out : 0;
-}
-
-namespace {
-
-// Changes of the three q_i and of their sum within a block of 4 x 4 pixels, if a pipeline may evaluate them in float
-// there: none is more than half of the least 1/w (kernels/attributes.h, changes_little). Else 0.
-struct BlockChanges {
-  Vec3<double> q{0};
-  double sum = 0;
-};
-BlockChanges block_changes(const WindowTriangle<double>& t, const Barycentrics& b) {
-  constexpr double kSteps = 3, kNearlyHalf = 0.5 + 1e-6;  // planes differ in their last bits
-  if (t.corners < 3) return {};
-  const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
-  const double sum = kSteps * (std::abs(glm::dot(b.d_dx, inv_w)) + std::abs(glm::dot(b.d_dy, inv_w)));
-  const Vec3<double> q = kSteps * (glm::abs(b.d_dx) + glm::abs(b.d_dy)) * inv_w;
-  const double most = kNearlyHalf * std::min({inv_w.x, inv_w.y, inv_w.z});
-  return std::max({q.y, q.z, sum}) <= most ? BlockChanges{q, sum} : BlockChanges{};
-}
-
-}  // namespace
-
-Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
-  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
-  const BlockChanges changes = block_changes(t, b);
-  const Vec3<double> q = b.value * Vec3<double>(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
-  const double sum = q.x + q.y + q.z;
-  const double condition = (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) / std::abs(sum);
-  const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
-  const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
-  // Where a corner's share is nearly 0, its own rounding in double is left: 2^-52 of terms that are anchored a tile
-  // away.
-  const auto share = [&](int i) {
-    const double k = std::abs(q[i] / sum), terms = 1 + 128 * (std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]));
-    return condition * k + 0x1p-28 * terms * std::abs(t.v[static_cast<std::size_t>(i)].inv_w / sum) +
-           0.4 * (changes.q[i] + k * changes.sum) / std::abs(sum);
-  };
-  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + share(1) * glm::abs(d1) + share(2) * glm::abs(d2);
 }
 
 }  // namespace plumbline::check

@@ -27,17 +27,6 @@ double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 /// N n. An error e |M| of M moves the unit normal by e times that.
 double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n);
 
-/// The triangle's perspective-correct colour at a pixel's centre, extrapolated outside it, and its slopes [1/pixel].
-struct PlaneValue {
-  Vec4<double> value, d_dx, d_dy;
-};
-PlaneValue color_of_plane(const WindowTriangle<double>& triangle, int x, int y);
-
-/// Rounding error of color_of_plane()'s slopes in double, per channel [1/pixel]: 2^-51 of the terms of
-/// c/w, of 1/w and of their slopes, evaluated from an anchor a tile away. Far behind a corner beside the eye, c/w and
-/// 1/w are small differences of large ones.
-Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y);
-
 /// Error bounds of a plane's value at a pixel centre: of depth, and of the colour's four channels.
 struct PlaneBounds {
   double depth;        ///< [u of window z]
@@ -101,18 +90,5 @@ std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges
 /// Corners of one triangle, drawn as points, that cover the pixel and may hide each other: their depths are within
 /// `tie` [window z] and both rounding errors. Empty where no two tie.
 std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie);
-
-/// Rounding error of a triangle's depth in double [window z]. The plane is evaluated at an anchor at most a tile (64
-/// pixels) away and brought to the pixel, so its terms are the corners' depths and both slopes over 128 pixels; six
-/// roundings of 2^-53. With slopes of 1 a pixel 1e-13; with slopes of 10^7 (slivers beside the eye) a step of z24.
-double depth_rounding(const WindowTriangle<double>& triangle);
-
-/// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
-/// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
-/// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|), and what double arithmetic leaves of a
-/// share that is 0. Where q changes little within blocks of 4 x 4 pixels, it may be evaluated in float there: 4 u of
-/// what q_i changes by, and of |k_i| times what the sum changes by, by the sum (kernels/attributes.h,
-/// changes_little).
-Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
 
 }  // namespace plumbline::check

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "check/bounds/mean_bounds.h"
 #include "check/bounds/units.h"
 #include "check/verdict/ledger.h"
 #include "reference/arithmetic/light_bounds.h"

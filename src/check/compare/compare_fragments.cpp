@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "check/bounds/bounds.h"
+#include "check/bounds/mean_bounds.h"
 #include "check/bounds/shade_bounds.h"
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
@@ -119,7 +121,15 @@ Measurement compare_open_covered(const Capture& candidate, const Records<double>
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions, double from_origin) {
   const double middle = middle_of(conventions.depth_rounding);
-  const bool may_be_float = from_origin > 0 && scene.frame.depth == DepthFormat::z32f;
+  const bool in_float = conventions.depth_arithmetic == Conventions::DepthArithmetic::in_float,
+             may_be_float = from_origin > 0 && (in_float || scene.frame.depth == DepthFormat::z32f);
+  const OffsetErrors offsets(scene);
+  // Of a stranger's triangle in float, by planes from the window's origin or by edge functions [window z]; and of a code,
+  // a product and a sum: each half a unit in the last place of a number below 1.
+  const auto float_error = [&](const WindowTriangle<double>& t, const Covered& c) {
+    const double by_plane = from_origin * (bounds_from_origin(t, c.x, c.y).depth + offsets.of(t));
+    return u * std::max(by_plane, depth_by_edge_functions(t, c.x, c.y)) + (in_float ? u : 0);
+  };
   return each_fragment(
       "depths", "step", candidate, candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {
         const double a = candidate.depth[i], b = reference.depth[i];
@@ -128,10 +138,7 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
         const double apart = difference(a + middle * step, b) / step;
         const bool needed = apart > factor && c.triangle < candidate.triangles.size();
         const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
-        const double allowance =
-            needed && may_be_float
-                ? from_origin * u * bounds_from_origin(candidate.triangles[c.triangle], c.x, c.y).depth / step
-                : 0;
+        const double allowance = needed && may_be_float ? float_error(candidate.triangles[c.triangle], c) / step : 0;
         meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b, allowance);
       });
 }

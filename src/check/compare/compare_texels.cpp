@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "check/bounds/fragment_bounds.h"
+#include "check/bounds/mean_bounds.h"
 #include "check/bounds/texture_bounds.h"
 #include "check/bounds/units.h"
 

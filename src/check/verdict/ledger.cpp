@@ -59,11 +59,11 @@ constexpr std::array kLedger = {
               "1/w, product, and a fused or separate scale and translate: 4 roundings."},
     Tolerance{Profile::opengl, Stage::window, "", 1, "ULP",
               "1/w: feedback hands out w, the reciprocal of the reciprocal; p_win: 0."},
-    Tolerance{
-        Profile::exact, Stage::depth, "", 0.501, "step",
-        "Rounding to the nearest code is half a step. The plane is evaluated in double; 0.001 steps are kept "
-        "for it, and for slivers six roundings of its terms, which only there are more (bounds.h, depth_rounding). "
-        "(Within one step would let truncation pass.)"},
+    Tolerance{Profile::exact, Stage::depth, "", 0.501, "step",
+              "Rounding to the nearest code is half a step. The plane is evaluated in double; 0.001 steps are kept "
+              "for it, and for slivers six roundings of its terms, which only there are more (mean_bounds.h, "
+              "depth_rounding). "
+              "(Within one step would let truncation pass.)"},
     Tolerance{
         Profile::opengl, Stage::coverage, "lines", 1, "pixel",
         "Lines of width 1 may be drawn by another rule than the diamond-exit rule (OpenGL 2.1, section 3.4.1): each "
@@ -82,7 +82,7 @@ constexpr std::array kLedger = {
     Tolerance{
         Profile::exact, Stage::attributes, "", 10, "u",
         "Barycentrics rounded to float (1), times 1/w (1), the sum of three such (4), reciprocal and product (2), "
-        "the corners' difference and its product (2): 10 u of the magnitude of bounds.h, bounds_of_mean, which "
+        "the corners' difference and its product (2): 10 u of the magnitude of mean_bounds.h, bounds_of_mean, which "
         "counts the two last sums at a fifth, and at two fifths what float sums within blocks of 4 x 4 pixels."},
     Tolerance{
         Profile::opengl, Stage::attributes, "", 8, "u",

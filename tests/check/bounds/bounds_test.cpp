@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "check/bounds/mean_bounds.h"
 #include "reference/exact/barycentric.h"
 #include "tests/check/fixtures.h"
 
@@ -158,6 +159,39 @@ TEST(Bounds, OfAMeanHoldForFloatArithmetic) {
   EXPECT_LE(largest.ratio, tolerance(Profile::exact, Stage::attributes).factor) << "exact.attributes is not sound";
   EXPECT_GE(largest.ratio, tolerance(Profile::exact, Stage::attributes).factor / 20)
       << "exact.attributes is absurdly loose";
+}
+
+// Edge functions, the area, quotients, products and the sum in float; corners as floats, of all shapes down to slivers.
+TEST(Bounds, OfADepthByEdgeFunctionsHoldForFloatArithmetic) {
+  Random r;
+  Largest largest;
+  for (int n = 0; n < 40000; ++n) {
+    const WindowTriangle<double> t = random_triangle(r);
+    if (std::abs(unsnapped_area(t)) < 1e-3 || (unsnapped_area(t) > 0) != t.front) continue;
+    const auto edge = [&](std::size_t from, std::size_t to, const glm::vec2& p) {
+      const glm::vec2 a(t.v[from].p_win), along = glm::vec2(t.v[to].p_win) - a, off = p - a;
+      return along.x * off.y - along.y * off.x;
+    };
+    const float area = edge(0, 1, glm::vec2(t.v[2].p_win));
+    if (area == 0) continue;
+    for_pixels(t, r, [&](int x, int y, const glm::dvec3& w) {
+      float depth = 0;
+      double exact = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float share = edge((i + 1) % 3, (i + 2) % 3, glm::vec2(x, y) + 0.5f) / area;
+        depth += share * static_cast<float>(t.v[i].p_win.z);
+        exact += w[static_cast<int>(i)] * t.v[i].p_win.z;
+      }
+      largest.add(std::abs(static_cast<double>(depth) - exact) / kU, depth_by_edge_functions(t, x, y));
+    });
+  }
+  RecordProperty("depth", std::to_string(largest.ratio));
+  EXPECT_GT(largest.items, 50000u);
+  EXPECT_LE(largest.ratio, 1);
+  EXPECT_GE(largest.ratio, 0.25) << "and not loose";
+  WindowTriangle<double> line;
+  line.corners = 2;
+  EXPECT_EQ(depth_by_edge_functions(line, 3, 3), 0);
 }
 
 // Weights in float within blocks of 4 x 4 pixels, in triangles where the weights' numerators and their sum change by at

@@ -1,6 +1,10 @@
 // Comparators of fragments, stages 5 to 9: what each triangle covers, and the depth and colours there.
+#include <algorithm>
 #include <functional>
+#include <limits>
 
+#include "check/bounds/bounds.h"
+#include "check/bounds/mean_bounds.h"
 #include "check/compare/compare_records.h"
 #include "tests/check/fixtures.h"
 
@@ -161,6 +165,41 @@ TEST_F(Fragments, DepthsOfSliversAreHeldToTheRoundingOfTheirPlane) {
   EXPECT_TRUE(fails(run(depth(), moved(0.5)))) << "of no triangle";
   v[1].p_win = v[0].p_win, v[1].snapped = v[0].snapped;
   EXPECT_EQ(depth_rounding(records.triangles[1]), 0) << "no plane";
+}
+
+// Of a renderer that declares depths in float, codes may be off by a plane's error, by that of edge functions where it
+// is larger, and by u.
+TEST_F(Fragments, DepthsInFloatAreHeldToTheirBound) {
+  Conventions in_float;
+  in_float.depth_arithmetic = Conventions::DepthArithmetic::in_float;
+  const auto compare = [&](const Conventions& conventions, double from_origin) {
+    return [&, from_origin](const auto& a, const auto& b) {
+      return compare_depth(scene, a, b, 0.501, conventions, from_origin);
+    };
+  };
+  const auto moved = [&](double by) { return [=](auto& r) { r.depth[5] += by; }; };
+  for (const bool sliver : {false, true}) {
+    if (sliver) {
+      WindowTriangle<double>& t = records.triangles[1];
+      t = triangle_of({{{2, 2, 0.25}, {512, 512, 0.25}, {514, 514 + 1.0 / 16, 0.25}}}, {1, 1, 1}, 1);
+    }
+    const double by_plane = 4 * bounds_from_origin(records.triangles[1], 3, 3).depth,
+                 by_edges = depth_by_edge_functions(records.triangles[1], 3, 3);
+    EXPECT_EQ(by_edges > by_plane, sliver) << by_edges << " " << by_plane;
+    for (const DepthFormat format : {DepthFormat::z16, DepthFormat::z24}) {
+      scene.frame.depth = format;
+      const double half = 0.501 * depth_step(format, 0.25), bound = kU * (std::max(by_plane, by_edges) + 1);
+      EXPECT_TRUE(passes(run(compare(in_float, 4), moved(half + 0.99 * bound))));
+      EXPECT_TRUE(fails(run(compare(in_float, 4), moved(half + 1.01 * bound))));
+      EXPECT_TRUE(fails(run(compare(in_float, 0), moved(half + 0.1 * bound)))) << "plumbline's own";
+      EXPECT_TRUE(fails(run(compare({}, 4), moved(half + 0.1 * bound)))) << "not declared";
+    }
+    scene.frame.depth = DepthFormat::z32f;
+    const double half = 0.501 * depth_step(DepthFormat::z32f, 0.25), bound = kU * std::max(by_plane, by_edges);
+    EXPECT_TRUE(passes(run(compare({}, 4), moved(half + 0.99 * bound)))) << "a float buffer";
+    EXPECT_TRUE(fails(run(compare({}, 4), moved(half + 1.01 * bound))));
+    EXPECT_TRUE(fails(run(compare({}, 4), moved(std::numeric_limits<double>::quiet_NaN()))));
+  }
 }
 
 TEST_F(Fragments, AttributesAreHeldToTheirBound) {

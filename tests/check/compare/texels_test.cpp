@@ -7,6 +7,7 @@
 #include <random>
 
 #include "check/bounds/bounds.h"
+#include "check/bounds/mean_bounds.h"
 #include "check/bounds/texture_bounds.h"
 #include "check/compare/compare_texels.h"
 #include "check/verdict/ledger.h"

@@ -1,0 +1,19 @@
+// Barycentric weights of a point in a window triangle or along a line.
+#pragma once
+
+#include "capture/stages.h"
+
+namespace plumbline::check {
+
+/// Barycentric weights at a point, and their slopes [1/pixel]. Triangle: of the unsnapped corners (stages.h, 6); of the
+/// snapped ones where the unsnapped area contradicts the facing. Line: by projection.
+struct Barycentrics {
+  Vec3<double> value, d_dx, d_dy;
+};
+
+/// `x`, `y` [pixel].
+Barycentrics barycentrics(const WindowTriangle<double>& triangle, double x, double y);
+/// Of a line's projection; value[1] is the share of the way to its second end.
+Barycentrics along_line(const WindowTriangle<double>& line, double x, double y);
+
+}  // namespace plumbline::check

@@ -1,0 +1,112 @@
+#include "check/bounds/mean_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/bounds/barycentrics.h"
+
+namespace plumbline::check {
+
+PlaneValue color_of_plane(const WindowTriangle<double>& t, int x, int y) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double q = glm::dot(b.value, inv_w);
+  const auto sum = [&](const Vec3<double>& weights, const Vec4<double>& from) {
+    Vec4<double> out(0);
+    for (int i = 0; i < 3; ++i) out += weights[i] * inv_w[i] / q * (t.v[static_cast<std::size_t>(i)].color - from);
+    return out;
+  };
+  const Vec4<double> value = sum(b.value, Vec4<double>(0));
+  return {value, sum(b.d_dx, value), sum(b.d_dy, value)};
+}
+
+Vec4<double> slope_rounding(const WindowTriangle<double>& t, int x, int y) {
+  constexpr double kRounding = 0x1p-51, kPixels = 128;
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const PlaneValue plane = color_of_plane(t, x, y);
+  const Vec4<double> size = glm::abs(plane.value), slope = glm::max(glm::abs(plane.d_dx), glm::abs(plane.d_dy));
+  double q = 0, q_slope = 0, q_error = 0, q_slope_error = 0;
+  Vec4<double> error(0), slope_error(0);  // of c/w and its slope
+  for (int i = 0; i < 3; ++i) {
+    const WindowVertex<double>& v = t.v[static_cast<std::size_t>(i)];
+    const double steep = std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]), terms = kRounding * std::abs(v.inv_w);
+    q += b.value[i] * v.inv_w;
+    q_slope += steep * std::abs(v.inv_w);
+    q_error += terms * (1 + kPixels * steep);
+    q_slope_error += terms * steep;
+    error += terms * (1 + kPixels * steep) * glm::abs(v.color);
+    slope_error += terms * steep * glm::abs(v.color);
+  }
+  q = std::abs(q);
+  return (slope_error + size * q_slope_error + (error + size * q_error) * (q_slope / q) + slope * q_error) / q;
+}
+
+double depth_rounding(const WindowTriangle<double>& t) {
+  constexpr double kTerms = 6 * 0x1p-53, kPixels = 128;
+  const auto& v = t.v;
+  const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
+  const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
+  const double slopes = std::abs(glm::dot(b.d_dx, z)) + std::abs(glm::dot(b.d_dy, z));
+  const double out = kTerms * (std::max({std::abs(z.x), std::abs(z.y), std::abs(z.z)}) + kPixels * slopes);
+  return std::isfinite(out) ? out : 0;
+}
+
+double depth_by_edge_functions(const WindowTriangle<double>& t, int x, int y) {
+  if (t.corners < 3) return 0;
+  const Vec2<double> p(x + 0.5, y + 0.5);
+  // |first| + |second| of the edge function of `at` and the edge `from`, `to`.
+  const auto terms = [](const Vec2<double>& from, const Vec2<double>& to, const Vec2<double>& at) {
+    const Vec2<double> along = to - from, off = at - from;
+    return std::abs(along.x * off.y) + std::abs(along.y * off.x);
+  };
+  const Vec2<double> corners[3] = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
+  const Barycentrics b = barycentrics(t, p.x, p.y);
+  const Vec2<double> e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+  const double area = std::abs(e1.x * e2.y - e1.y * e2.x), of_area = terms(corners[0], corners[1], corners[2]) / area;
+  double out = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double of_edge = terms(corners[(i + 1) % 3], corners[(i + 2) % 3], p) / area, share = std::abs(b.value[i]);
+    out += std::abs(t.v[static_cast<std::size_t>(i)].p_win.z) * (4 * of_edge + 4 * share * of_area + 4 * share);
+  }
+  return out;
+}
+
+namespace {
+
+// Changes of the three q_i and of their sum within a block of 4 x 4 pixels, if a pipeline may evaluate them in float
+// there: none is more than half of the least 1/w (kernels/attributes.h, changes_little). Else 0.
+struct BlockChanges {
+  Vec3<double> q{0};
+  double sum = 0;
+};
+BlockChanges block_changes(const WindowTriangle<double>& t, const Barycentrics& b) {
+  constexpr double kSteps = 3, kNearlyHalf = 0.5 + 1e-6;  // planes differ in their last bits
+  if (t.corners < 3) return {};
+  const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double sum = kSteps * (std::abs(glm::dot(b.d_dx, inv_w)) + std::abs(glm::dot(b.d_dy, inv_w)));
+  const Vec3<double> q = kSteps * (glm::abs(b.d_dx) + glm::abs(b.d_dy)) * inv_w;
+  const double most = kNearlyHalf * std::min({inv_w.x, inv_w.y, inv_w.z});
+  return std::max({q.y, q.z, sum}) <= most ? BlockChanges{q, sum} : BlockChanges{};
+}
+
+}  // namespace
+
+Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const BlockChanges changes = block_changes(t, b);
+  const Vec3<double> q = b.value * Vec3<double>(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double sum = q.x + q.y + q.z;
+  const double condition = (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) / std::abs(sum);
+  const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
+  const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
+  // Where a corner's share is nearly 0, its own rounding in double is left: 2^-52 of terms that are anchored a tile
+  // away.
+  const auto share = [&](int i) {
+    const double k = std::abs(q[i] / sum), terms = 1 + 128 * (std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]));
+    return condition * k + 0x1p-28 * terms * std::abs(t.v[static_cast<std::size_t>(i)].inv_w / sum) +
+           0.4 * (changes.q[i] + k * changes.sum) / std::abs(sum);
+  };
+  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + share(1) * glm::abs(d1) + share(2) * glm::abs(d2);
+}
+
+}  // namespace plumbline::check
