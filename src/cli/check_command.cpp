@@ -174,6 +174,7 @@ int check(const CheckOptions& given) {
   std::string summary = not_asked_line(o);
   const bool outside = !o.candidate.command.empty();
   if (outside) summary += convention_notes(o.candidate.conventions);
+  if (outside && !report::all_hold(verdicts)) summary += hint_of_conventions(o.candidate.conventions);
   if (outside && !can_confine()) summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
   summary += report::summary(verdicts, holds, seconds);

@@ -145,15 +145,12 @@ std::string known_faults(const Scene& scene, const Capture& left, const Renderer
                                         : "");
 }
 
-// Pointer to `plumb learn`: another renderer's frame is wrong, no conventions are declared, no known fault draws such a
-// frame.
-std::string hint_of_conventions(const DiagnoseOptions& o, const check::Diagnosis& diagnosis,
-                                const std::string& faults) {
+// Pointer to `plumb learn`: another renderer's frame is wrong, and no known fault draws such a frame.
+std::string hint_where_unexplained(const DiagnoseOptions& o, const check::Diagnosis& diagnosis,
+                                   const std::string& faults) {
   const bool is_ours = o.candidate.command.empty() && o.folder.empty();
-  if (is_ours || !o.candidate.conventions.empty() || !faults.empty() || holds(diagnosis)) return "";
-  return "\nno known fault draws such a frame; the renderer's own conventions (grid, tie rule, roundings, corners) "
-         "may:\n"
-         "  plumb learn --program CMD -o FILE, then --conventions FILE\n";
+  if (is_ours || !faults.empty() || holds(diagnosis)) return "";
+  return "\nno known fault draws such a frame; " + hint_of_conventions(o.candidate.conventions);
 }
 
 // In a worker: writes the files, and returns the exit code, as one character, and the text.
@@ -187,7 +184,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
                                 report::diagnosis_text(diagnosis)) +
-                    open + faults + hint_of_conventions(o, diagnosis, faults);
+                    open + faults + hint_where_unexplained(o, diagnosis, faults);
   std::string history, history_text;
   if (subject.pixel) {
     const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);

@@ -27,6 +27,7 @@ TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
   const Outcome undeclared = plumb("check " + kSharedEdges + kLearnedProgram);
   EXPECT_EQ(undeclared.code, 0) << undeclared.text;
   EXPECT_TRUE(undeclared.says("not judged: which triangle owns a sample on an edge")) << undeclared.text;
+  EXPECT_FALSE(undeclared.says("may be others than OpenGL's")) << "nothing is wrong\n" << undeclared.text;
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json")).code, 0);
 }
 
@@ -114,6 +115,7 @@ TEST_F(Cli, a_failure_is_repeated_by_the_conventions_too) {
   const Outcome run = plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("repeat: ") && run.says("' --conventions " + at("c.json") + "\n")) << run.text;
+  EXPECT_TRUE(run.says("may be others than those of " + at("c.json") + ":\n  plumb learn --program")) << run.text;
 }
 
 TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {

@@ -206,6 +206,14 @@ std::string convention_notes(const std::string& file) {
   return out;
 }
 
+std::string hint_of_conventions(const std::string& file) {
+  const std::string judged_by = file.empty() ? "OpenGL's" : "those of " + file;
+  return fmt::format(
+      "the renderer's own conventions (grid, tie rule, roundings, corners) may be others than {}:\n"
+      "  plumb learn --program CMD -o FILE, then --conventions FILE\n",
+      judged_by);
+}
+
 std::string command_of_submission(const std::string& command, const std::filesystem::path& folder) {
   std::string line = command;
   if (replace(line, "{submission}", shell_word(std::filesystem::absolute(folder).lexically_normal().string())))
