@@ -105,10 +105,7 @@ bool faces_front(const WindowTriangle<double>& t, const Conventions& conventions
     using Place = glm::vec<2, long double>;
     const auto place = [&](const WindowVertex<double>& v) {
       if (conventions.subpixel_bits == Conventions::kFloat) return Place(v.p_win);
-      const auto on_grid = [&](double p) {
-        return rounded(conventions.subpixel_rounding, std::ldexp(p - 0.5, conventions.subpixel_bits));
-      };
-      return Place(on_grid(v.p_win.x), on_grid(v.p_win.y));
+      return Place(on_grid(conventions, v.p_win.x), on_grid(conventions, v.p_win.y));
     };
     const Place a = place(t.v[0]), e1 = place(t.v[1]) - a, e2 = place(t.v[2]) - a;
     return e1.x * e2.y > e1.y * e2.x;

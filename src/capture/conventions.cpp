@@ -31,6 +31,10 @@ double snapped(const Conventions& conventions, double from_centre) {
   return rounded(conventions.subpixel_rounding, from_centre / steps) * steps;
 }
 
+double on_grid(const Conventions& conventions, double p_win) {
+  return rounded(conventions.subpixel_rounding, std::ldexp(p_win - 0.5, conventions.subpixel_bits));
+}
+
 bool settles_ties(const Conventions& c) {
   // Edge functions in a frame of 2^15 pixels are exact in double: 2 (15 + 10) + 2 bits.
   constexpr int kFinest = 10;

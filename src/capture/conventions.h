@@ -118,6 +118,9 @@ double srgb_encoded(double linear);
 /// A window coordinate, counted from the first pixel's centre [1/256 pixel], snapped to the grid of the conventions;
 /// rounded to the nearest whole number where that grid is finer than 1/256 pixel, or there is none.
 double snapped(const Conventions& conventions, double from_centre);
+/// A window coordinate [pixel] on the grid of the conventions, whatever its fineness, counted from the first pixel's
+/// centre [the grid's steps, 2^-subpixel_bits pixel]. There must be a grid.
+double on_grid(const Conventions& conventions, double p_win);
 
 /// A convention for people.
 struct ConventionWords {

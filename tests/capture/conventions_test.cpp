@@ -151,5 +151,22 @@ TEST(Conventions, ASceneIsAlteredOnlyWhereItMustBe) {
   EXPECT_EQ(by->frame.depth, DepthFormat::z16);
 }
 
+TEST(Conventions, WindowCoordinatesLieOnTheDeclaredGrid) {
+  Conventions c;
+  const double p_win = 3.5 + 37.4 / 1024;  // of the fourth pixel's centre
+  EXPECT_EQ(on_grid(c, 0.5), 0);
+  EXPECT_EQ(on_grid(c, p_win), 3 * 256 + 9);
+  EXPECT_EQ(snapped(c, (p_win - 0.5) * 256), 3 * 256 + 9);
+  c.subpixel_bits = 10;
+  EXPECT_EQ(on_grid(c, p_win), 3 * 1024 + 37);
+  EXPECT_EQ(snapped(c, (p_win - 0.5) * 256), 3 * 256 + 9) << "to 1/256 pixel at the finest";
+  c.subpixel_rounding = Conventions::Rounding::up;
+  EXPECT_EQ(on_grid(c, p_win), 3 * 1024 + 38);
+  c.subpixel_bits = 4, c.subpixel_rounding = Conventions::Rounding::down;
+  EXPECT_EQ(on_grid(c, p_win), 3 * 16 + 0);
+  EXPECT_EQ(on_grid(c, 0.5 - 1.0 / 64), -1) << "left of the first centre";
+  EXPECT_EQ(snapped(c, (p_win - 0.5) * 256), 3 * 256) << "counted in 1/256 pixel still";
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -28,9 +28,8 @@ struct Spot {
 Spot snapped_spot(const WindowCorner& c, const Conventions& grid) {
   Spot out{};
   for (int k = 0; k < 2; ++k) {
-    const double at = c.vertex.p_win[k] - 0.5, error = c.error[k];
-    const double least = rounded(grid.subpixel_rounding, std::ldexp(at - error, grid.subpixel_bits)),
-                 most = rounded(grid.subpixel_rounding, std::ldexp(at + error, grid.subpixel_bits));
+    const double at = c.vertex.p_win[k], error = c.error[k], least = on_grid(grid, at - error),
+                 most = on_grid(grid, at + error);
     out.middle[k] = (least + most) / 2;
     out.reach[k] = (most - least) / 2;
   }

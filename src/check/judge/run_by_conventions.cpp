@@ -172,8 +172,7 @@ void move_to_grid(WindowTriangle<double>& t, const C& conventions) {
   const int bits = conventions.subpixel_bits;
   for (WindowVertex<double>& v : t.v) {
     for (int i = 0; i < 2; ++i) {
-      const double fine = std::ldexp(v.p_win[i] - 0.5, bits);
-      v.p_win[i] = 0.5 + (bits > 8 ? std::ldexp(rounded(conventions.subpixel_rounding, fine), -bits)
+      v.p_win[i] = 0.5 + (bits > 8 ? std::ldexp(on_grid(conventions, v.p_win[i]), -bits)
                                    : static_cast<double>(v.snapped[i]) / kSubpixel);
     }
   }
@@ -182,13 +181,13 @@ void move_to_grid(WindowTriangle<double>& t, const C& conventions) {
 Capture interpolate(Renderer& referee, const Scene& scene, Stage stage, const Capture& in, const C& conventions) {
   const bool is_float = conventions.subpixel_bits == C::kFloat;
   const bool is_finer = is_float || conventions.subpixel_bits > 8;
-  const bool on_grid = !is_float && conventions.attribute_corners == C::Corners::snapped;
+  const bool are_snapped = !is_float && conventions.attribute_corners == C::Corners::snapped;
   const bool is_affine = conventions.interpolation == C::Interpolation::affine && stage != Stage::depth;
   const bool turns_over = is_finer && std::ranges::any_of(in.records.triangles, is_turned_over);
-  if (!turns_over && !on_grid && !is_affine) return referee.run_stage(scene, stage, in);
+  if (!turns_over && !are_snapped && !is_affine) return referee.run_stage(scene, stage, in);
   Capture between = in;
   for (WindowTriangle<double>& t : between.records.triangles) {
-    if (on_grid) move_to_grid(t, conventions);
+    if (are_snapped) move_to_grid(t, conventions);
     if (is_finer) face_as_it_lies(t);
     for (WindowVertex<double>& v : t.v) v.inv_w = is_affine ? 1 : v.inv_w;
   }
