@@ -52,6 +52,29 @@ TEST(Probes, TellNoWinnersWhereColoursOrStencilValuesDecide) {
   }
 }
 
+// Draws no depth_func but less_equal.
+struct OfLessEqual : Renderer {
+  RendererInfo info() const override { return {}; }
+  Capture capture(const Scene& scene, const Request& request) override {
+    if (scene.draws.front().depth_func != DepthFunc::less_equal) throw Unsupported("depth_func");
+    return pipeline::make_pipeline()->capture(scene, request);
+  }
+};
+
+TEST(Probes, AreOfAnyFunctionThatEveryDepthPasses) {
+  Scene scene = scene_named("depth/near_and_far");
+  scene.frame.clear_depth = 0.25;
+  for (Draw& draw : scene.draws) draw.depth_func = DepthFunc::less_equal;
+  OfLessEqual renderer;
+  Capture capture = capture_of_nothing(scene);
+  add_probed_planes(scene, renderer, capture);
+  const Planes shown = renderer.capture(scene, Request{}).planes;
+  EXPECT_EQ(capture.planes.count.values(), shown.count.values());
+  EXPECT_EQ(capture.planes.id.values(), shown.id.values());
+  scene.draws.front().depth_func = DepthFunc::less;
+  EXPECT_THROW(add_probed_planes(scene, renderer, capture = capture_of_nothing(scene)), Unsupported);
+}
+
 // Draws whole scenes, and no single primitive.
 struct WholeAlone : Renderer {
   RendererInfo info() const override { return {}; }

@@ -71,18 +71,39 @@ Plane<glm::vec4> picture_of(const Scene& scene, Renderer& renderer) {
   return color;
 }
 
+// Pictures of primitives alone, by the first of two depth functions that the renderer draws; every depth passes both.
+class PicturesAlone {
+ public:
+  PicturesAlone(const Scene& scene, Renderer& renderer) : scene_(scene), renderer_(renderer) {}
+  Plane<glm::vec4> of(std::uint32_t primitive) {
+    try {
+      return picture_of(primitive_alone(scene_, primitive, func_), renderer_);
+    } catch (const Unsupported&) {
+      if (func_ == DepthFunc::less_equal || primitive > 0) throw;
+      func_ = DepthFunc::less_equal;
+      return picture_of(primitive_alone(scene_, primitive, func_), renderer_);
+    }
+  }
+
+ private:
+  const Scene& scene_;
+  Renderer& renderer_;
+  DepthFunc func_ = DepthFunc::always;
+};
+
 }  // namespace
 
-Scene primitive_alone(const Scene& scene, std::uint32_t primitive) {
+Scene primitive_alone(const Scene& scene, std::uint32_t primitive, DepthFunc func) {
   const DrawIndex draws(scene);
   const std::size_t number = draws.of_primitive(primitive).value();
   const Mesh& mesh = scene.meshes[scene.draws[number].mesh];
   Scene out = stage_of(scene);
   out.frame.stencil = StencilFormat::none;
+  out.frame.clear_depth = 1;
   Draw& draw = out.draws.emplace_back(plain(scene.draws[number]));
   draw.mesh = 0;
   draw.stencil.reset();
-  draw.depth_func = DepthFunc::always;
+  draw.depth_func = func;
   Mesh& alone = out.meshes.emplace_back();
   alone.topology = mesh.topology;
   add_primitive(mesh, mesh.triangles[primitive - draws.ranges()[number].first_primitive], glm::vec4(1), alone);
@@ -122,8 +143,9 @@ void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture)
   if (planes.count.empty() && planes.id_sum.empty()) {
     Plane<std::uint32_t> count(capture.width, capture.height);  // shown only if every picture is
     Plane<std::uint64_t> id_sum(capture.width, capture.height);
+    PicturesAlone pictures(scene, renderer);
     for (std::uint32_t primitive = 0; primitive < primitives; ++primitive) {
-      const Plane<glm::vec4> picture = picture_of(primitive_alone(scene, primitive), renderer);
+      const Plane<glm::vec4> picture = pictures.of(primitive);
       for (std::size_t i = 0; i < picture.size(); ++i) {
         if (glm::vec3(picture.values()[i]) == glm::vec3(kBlack)) continue;
         ++count.values()[i];

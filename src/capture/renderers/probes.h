@@ -11,8 +11,9 @@ namespace plumbline {
 /// The most primitives of a scene that is probed: each is a picture.
 inline constexpr std::size_t kMostProbes = 4096;
 
-/// The scene with one primitive alone: white on black, no test, nothing blended, so that its pixels are those covered.
-Scene primitive_alone(const Scene& scene, std::uint32_t primitive);
+/// The scene with one primitive alone: white on black, in a frame cleared to depth 1, nothing blended, so that its
+/// pixels are those covered. `func`: always, or less_equal, which every depth of [0,1] passes, too.
+Scene primitive_alone(const Scene& scene, std::uint32_t primitive, DepthFunc func = DepthFunc::always);
 /// The scene whose colours tell the winners: each primitive has one colour, nothing is blended; depth and stencil tests
 /// are the scene's. `rounding`: how the renderer rounds colours to 8-bit codes.
 Scene primitives_by_color(const Scene& scene, Conventions::Rounding rounding = Conventions::Rounding::nearest);
