@@ -5,6 +5,7 @@
 
 #include "capture/legal.h"
 #include "capture/stages.h"
+#include "check/bounds/bounds.h"
 #include "check/bounds/mean_bounds.h"
 #include "scene/scene.h"
 

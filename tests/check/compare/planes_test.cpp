@@ -1,6 +1,7 @@
 // Comparators of planes against another renderer's planes, stages 5 to 11.
 #include <fmt/format.h>
 
+#include "check/bounds/mean_bounds.h"
 #include "tests/check/compare/planes.h"
 
 namespace plumbline::check {
