@@ -119,21 +119,24 @@ TEST(Probes, ColoursAreNumbersAndBack) {
   scene.meshes[0].triangles.assign(70000, {0, 1, 2});
   scene.draws.resize(1);
   const Mesh apart = primitives_by_color(scene).meshes[0];
-  for (const int primitive : {0, 1, 254, 255, 256, 65534, 65535, 69999}) {
+  for (const int primitive : {0, 1, 253, 254, 255, 65023, 65024, 65025, 69999}) {
     EXPECT_EQ(winner_of(apart.colors[3 * static_cast<std::size_t>(primitive)]), primitive);
   }
   // Whatever a frame of codes makes of the colours.
   const Mesh up = primitives_by_color(scene, Conventions::Rounding::up).meshes[0];
-  for (const std::size_t primitive : {0u, 1u, 254u, 255u, 256u, 65534u, 65535u, 69999u}) {
+  for (const std::size_t primitive : {0u, 1u, 253u, 254u, 255u, 65023u, 65024u, 65025u, 69999u}) {
     const glm::vec4 color = 255.0f * apart.colors[3 * primitive], of_up = 255.0f * up.colors[3 * primitive];
-    for (const glm::vec4& codes : {glm::floor(color), glm::round(color), glm::ceil(of_up)})
+    const float less = 1 - 0x1p-22f;  // interpolated, in float
+    for (const glm::vec4& codes :
+         {glm::floor(color), glm::floor(less * color), glm::round(color), glm::ceil(of_up), glm::ceil(of_up / less)})
       EXPECT_EQ(winner_of(codes / 255.0f), static_cast<std::int32_t>(primitive));
   }
   EXPECT_EQ(winner_of(glm::vec4(0, 0, 0, 1)), -1);
   for (const float v : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(), -1e30f}) {
     EXPECT_EQ(winner_of(glm::vec4(v)), -1);
   }
-  EXPECT_EQ(winner_of(glm::vec4(1e30f)), (1 << 24) - 2);
+  EXPECT_EQ(winner_of(glm::vec4(1e30f)), 255 * 255 * 255);
+  EXPECT_EQ(winner_of(glm::vec4(0, 0, 1, 1)), 255 * 255 * 255) << "a primitive's colours are below code 255";
   const auto renderer = pipeline::make_pipeline();
   Capture capture;
   EXPECT_THROW(add_probed_planes(scene, *renderer, capture), Unsupported);

@@ -57,11 +57,15 @@ void add_primitive(const Mesh& from, const glm::uvec3& corners, const glm::vec4&
   to.triangles.push_back({first, first + std::min(1u, count - 1), first + count - 1});
 }
 
-// Number of a primitive, plus 1 (0 is the cleared frame), as 8-bit codes of red, green and blue. A quarter code is
-// added, so that rounding to nearest and down gives the code back; where the renderer rounds up, it is subtracted.
+// Red, green and blue are digits of a primitive's number to the base 255, as 8-bit codes of 0 to 254: a code of 255 has
+// no room above it, and three equal corners may interpolate to a little less.
+constexpr std::uint32_t kBase = 255;
+
+// Number of a primitive, plus 1 (0 is the cleared frame), in a colour. A quarter code is added, so that rounding to
+// nearest and down gives the code back; where the renderer rounds up, it is subtracted.
 glm::vec4 color_of(std::uint32_t primitive, Conventions::Rounding rounding) {
-  const std::uint32_t code = primitive + 1;
-  const glm::vec3 codes(code & 0xffu, (code >> 8) & 0xffu, (code >> 16) & 0xffu);
+  const std::uint32_t number = primitive + 1;
+  const glm::vec3 codes(number % kBase, number / kBase % kBase, number / (kBase * kBase) % kBase);
   return {glm::clamp((codes + (rounding == Conventions::Rounding::up ? -0.25f : 0.25f)) / 255.0f, 0.0f, 1.0f), 1};
 }
 
@@ -130,7 +134,9 @@ std::int32_t winner_of(const glm::vec4& color) {
     const float v = color[channel];  // of a program: any number, or none
     return v > 0 ? static_cast<std::int32_t>(std::lround(std::min(v, 1.0f) * 255.0f)) : 0;
   };
-  return code(0) + (code(1) << 8) + (code(2) << 16) - 1;
+  constexpr auto kOne = static_cast<std::int32_t>(kBase);
+  if (std::max({code(0), code(1), code(2)}) >= kOne) return kOne * kOne * kOne;
+  return code(0) + kOne * code(1) + kOne * kOne * code(2) - 1;
 }
 
 void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture) {

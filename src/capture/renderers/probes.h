@@ -17,7 +17,7 @@ Scene primitive_alone(const Scene& scene, std::uint32_t primitive, DepthFunc fun
 /// The scene whose colours tell the winners: each primitive has one colour, nothing is blended; depth and stencil tests
 /// are the scene's. `rounding`: how the renderer rounds colours to 8-bit codes.
 Scene primitives_by_color(const Scene& scene, Conventions::Rounding rounding = Conventions::Rounding::nearest);
-/// The primitive that primitives_by_color() draws in this colour; kBackground for black.
+/// The primitive that primitives_by_color() draws in this colour; kBackground for black, 255^3 for a colour of none.
 std::int32_t winner_of(const glm::vec4& color);
 
 /// Adds planes to a capture from pictures that the renderer draws of these scenes: count and id_sum, where the capture
