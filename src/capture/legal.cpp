@@ -36,11 +36,19 @@ struct Held {
   std::int32_t surface;
 };
 
-/// `hit` against the depth that the frame holds; depths no more than `step` apart may compare either way, so that
-/// "less" and "less or equal" allow the same. Depths of one surface are equal.
-Test depth_test(const Hit& of, const Held& frame, double step) {
+/// Whether the function passes each depth of a format with codes, to which depths are clamped, over the one held.
+bool passes_all(DepthFunc func, DepthFormat format, Interval held) {
+  if (depth_scale(format) == 0 || held.lo != held.hi) return false;
+  return (func == DepthFunc::less_equal && held.lo == 1) || (func == DepthFunc::greater_equal && held.lo == 0);
+}
+
+/// `hit` against the depth that the frame holds; depths no more than a step apart may compare either way, so that "less"
+/// and "less or equal" allow the same, but at the ends of formats with codes. Depths of one surface are equal.
+Test depth_test(const Hit& of, const Held& frame, DepthFormat format) {
   const DepthFunc func = of.depth_func;
   const Interval hit{of.z_lo, of.z_hi}, held = frame.z;
+  if (passes_all(func, format, held)) return {true, false, hit, held, held};
+  const double step = depth_step(format, std::max(hit.hi, held.hi));
   const bool is_same = of.surface != kNoSurface && of.surface == frame.surface;
   if (is_same || tie_of_clamped(hit, held)) {
     const Outcomes tie = outcomes(func, held.lo, held.lo, held.lo);
@@ -121,8 +129,7 @@ std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const St
       put(held, false, held.stencil);
       continue;
     }
-    const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
-    const Test test = depth_test(hit, {{held.z_lo, held.z_hi}, held.surface}, step);
+    const Test test = depth_test(hit, {{held.z_lo, held.z_hi}, held.surface}, format);
     if (test.may_fail) {  // `held` stays only where the hit fails
       LegalAnswer failed = held;
       failed.z_lo = test.failed.lo;
@@ -239,8 +246,7 @@ void LegalFold::draw_in_runs(const Hit& hit, bool certain) {
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Run run = runs_[r];
     const std::size_t first = run.first, last = r + 1 < runs_.size() ? runs_[r + 1].first : winners_.size();
-    const double step = depth_step(format_, std::max(hit.z_hi, run.z_hi));
-    const Test test = depth_test(hit, {{run.z_lo, run.z_hi}, run.surface}, step);
+    const Test test = depth_test(hit, {{run.z_lo, run.z_hi}, run.surface}, format_);
     if (test.may_pass) {
       const Interval left = hit.depth_mask ? test.passed : test.under;
       if (!hit.depth_mask) surface = may_win ? either(surface, run.surface) : run.surface;

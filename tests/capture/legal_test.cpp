@@ -174,6 +174,30 @@ TEST(FoldHits, DepthsClampedToOneEndAreATieThatTheFunctionSettles) {
   EXPECT_EQ(winners({hit(0, 0.25, 0.25), hit(1, 0.25, 0.25)}), (Ids{0, 1})) << "no end: rounded by who knows whom";
 }
 
+// No depth of a format with codes is beyond its ends: a sky that reaches the far plane is not left out.
+TEST(FoldHits, NothingFailsLessOrEqualOverTheFarthestDepth) {
+  for (const DepthFormat format : {DepthFormat::z16, DepthFormat::z24}) {
+    FrameFormat frame;
+    frame.depth = format;
+    const double nearly = 1 - depth_step(format, 1) / 2;
+    EXPECT_EQ(winners({hit(0, nearly, 1, DepthFunc::less_equal)}, frame), (Ids{0}));
+    EXPECT_EQ(winners({maybe(hit(0, nearly, 1, DepthFunc::less_equal))}, frame), (Ids{-1, 0})) << "a hit that may be";
+    EXPECT_EQ(winners({hit(0, nearly, 1, DepthFunc::less)}, frame), (Ids{-1, 0}));
+    EXPECT_EQ(winners({hit(0, nearly, 1, DepthFunc::greater_equal)}, frame), (Ids{-1, 0}));
+    const std::vector<LegalAnswer> left = answers({hit(0, nearly, 1, DepthFunc::less_equal)}, frame);
+    EXPECT_EQ(left[0].z_lo, nearly);
+    EXPECT_EQ(left[0].z_hi, 1);
+    frame.clear_depth = 1 - 1.5 * depth_step(format, 1);
+    EXPECT_EQ(winners({hit(0, nearly, 1, DepthFunc::less_equal)}, frame), (Ids{-1, 0})) << "a code before the end";
+    frame.clear_depth = 0;
+    EXPECT_EQ(winners({hit(0, 0, 1 - nearly, DepthFunc::greater_equal)}, frame), (Ids{0}));
+    EXPECT_EQ(winners({hit(0, 0, 1 - nearly, DepthFunc::less_equal)}, frame), (Ids{-1, 0}));
+  }
+  FrameFormat frame;
+  frame.depth = DepthFormat::z32f;
+  EXPECT_EQ(winners({hit(0, 1 - 1e-9, 1, DepthFunc::less_equal)}, frame), (Ids{-1, 0})) << "floats may be beyond 1";
+}
+
 TEST(FoldHits, PassingAndFailingNarrowTheInterval) {
   const auto all = answers({hit(0, 0.4, 0.5), hit(1, 0.45, 0.6)});
   const double step = depth_step(DepthFormat::z24, 0.6);
