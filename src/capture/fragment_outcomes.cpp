@@ -26,6 +26,11 @@ double depth_in_format(DepthFormat format, double z_win) {
   return (format == DepthFormat::z8 ? std::round(z_win * scale) : std::nearbyint(z_win * scale)) / scale;
 }
 
+bool passes_all_over(DepthFunc func, DepthFormat format, double held) {
+  if (depth_scale(format) == 0) return false;
+  return (func == DepthFunc::less_equal && held == 1) || (func == DepthFunc::greater_equal && held == 0);
+}
+
 Outcomes alpha_outcomes(const AlphaTest& test, ColorFormat format, double lo, double hi) {
   const double reference = test.reference, scale = color_scale(format);
   if (scale == 0) return outcomes(test.func, lo, hi, reference);
