@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "reference/arithmetic/color_error.h"
+#include "reference/arithmetic/error_in_float.h"
 #include "reference/arithmetic/fog.h"
 #include "reference/arithmetic/light_bounds.h"
 #include "reference/arithmetic/polygon_offset.h"
@@ -86,10 +87,11 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
 
 /// Sets the depth interval in the window, from that of z_view: two further roundings, unless the depth range is [0,1],
 /// whose rounding is counted already.
+/// `in_float`: error_in_float().
 void set_window_depth(const Triangle& t, const OffsetBounds& offset, bool clamps, double lo, double hi, double weight,
-                      PixelHit& out) {
+                      double in_float, PixelHit& out) {
   const double moved = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
-  const double rounding = moved + offset.half;
+  const double rounding = moved + offset.half + in_float;
   const auto [low, high] = clamps ? std::minmax({double{t.range.near}, double{t.range.far}}) : std::pair(0.0, 1.0);
   out.win.z = to_window(t, out.view.z);
   if (clamps) out.win.z = std::clamp(out.win.z, low, high);
@@ -135,7 +137,8 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  set_window_depth(t, polygon_offset(t, offset, scene.depth, scene.conventions), clamps, lo, hi, weight, out);
+  set_window_depth(t, polygon_offset(t, offset, scene.depth, scene.conventions), clamps, lo, hi, weight,
+                   error_in_float(scene, t, d), out);
 }
 
 /// Gradients of the edge functions that weight attributes: where a renderer interpolates without perspective, each is

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/float_depth.h"
 #include "learn/probe_scene.h"
 #include "learn/prober.h"
 
@@ -209,75 +210,114 @@ void learn_depths(Prober& prober) {
 
 namespace {
 
-// A triangle of depths that are multiples of 2^-16, with corners on whole pixels: only its interpolation rounds.
+// A triangle of depths that are multiples of 2^-16, with corners where floats lose nothing: only its interpolation
+// rounds.
 struct SlopedTriangle {
-  std::array<glm::dvec3, 3> p_win = {glm::dvec3(2, 1, 9973 / 65536.0), glm::dvec3(61, 5, 39019 / 65536.0),
-                                     glm::dvec3(7, 58, 60013 / 65536.0)};
-  // Twice the areas that the point makes with the edges opposite each corner [pixel^2].
-  glm::dvec3 areas(glm::dvec2 p) const {
-    const auto area = [&](const glm::dvec3& a, const glm::dvec3& b) {
-      return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+  WindowCorners p_win;
+  // Shares of the corners at a point.
+  glm::dvec3 shares(glm::dvec2 p) const {
+    const auto area = [](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+      return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     };
-    return {area(p_win[1], p_win[2]), area(p_win[2], p_win[0]), area(p_win[0], p_win[1])};
+    const glm::dvec2 a(p_win[0]), b(p_win[1]), c(p_win[2]);
+    return glm::dvec3(area(b, c, p), area(c, a, p), area(a, b, p)) / area(a, b, c);
   }
   bool holds(glm::dvec2 p) const {
-    constexpr double kInside = 120;  // two pixels from the longest edge
-    const glm::dvec3 a = areas(p);
-    return std::min({a.x, a.y, a.z}) > kInside;
+    constexpr double kInside = 0.04;  // no rule and no grid leaves such a sample out
+    const glm::dvec3 of = shares(p);
+    return std::min({of.x, of.y, of.z}) > kInside;
   }
-  double depth(glm::dvec2 p) const {
-    const glm::dvec3 a = areas(p);
-    return glm::dot(a, glm::dvec3(p_win[0].z, p_win[1].z, p_win[2].z)) / (a.x + a.y + a.z);
-  }
+  double depth(glm::dvec2 p) const { return glm::dot(shares(p), {p_win[0].z, p_win[1].z, p_win[2].z}); }
 };
+
+// One of 59 pixels beside the origin; many of 5 pixels far from it, nearly level, so that planes lose little there.
+std::vector<SlopedTriangle> large_and_near() {
+  return {{{glm::dvec3(2, 1, 9973 / 65536.0), glm::dvec3(61, 5, 39019 / 65536.0), glm::dvec3(7, 58, 60013 / 65536.0)}}};
+}
+std::vector<SlopedTriangle> small_and_far(int grid_bits) {
+  const auto on_grid = [&](double p) { return std::ldexp(std::nearbyint(std::ldexp(p, grid_bits)), -grid_bits); };
+  std::vector<SlopedTriangle> out;
+  for (int x = 480; x < 504; x += 6) {
+    for (int y = 480; y < 504; y += 6) {
+      const double z = 20011 + (61 * x + 977 * y) % 30000;
+      const auto corner = [&](double right, double up, double depth) {
+        return glm::dvec3(on_grid(x + right), on_grid(y + up), (z + depth) / 65536);
+      };
+      out.push_back({{corner(0.1934, 0.3047, 0), corner(4.9385, 1.1943, 37), corner(1.4404, 3.8115, 83)}});
+    }
+  }
+  return out;
+}
 
 // The format of depths that a frame of 24 bits is left in.
 DepthFormat format_of_24(C::Depth format) {
   return format == C::Depth::z16 ? DepthFormat::z16 : format == C::Depth::z32f ? DepthFormat::z32f : DepthFormat::z24;
 }
 
+// Depths of pixels within triangles, counted: those that are rounded from the exact depth, and those that are within the
+// error of each arithmetic besides.
+struct Interpolated {
+  std::size_t pixels = 0, in_double = 0, in_float = 0, from_origin = 0;
+  double most = 0;  // [steps more than rounding]
+};
+
+// Draws the triangles in a square frame, and counts; false: the renderer leaves no depths.
+bool count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangles, Interpolated& out) {
+  constexpr double kDoubleError = 1e-3;  // [step]
+  const C& c = prober.learned.conventions;
+  std::vector<std::array<ProbeCorner, 3>> corners;
+  for (const SlopedTriangle& t : triangles) corners.push_back({{{t.p_win[0]}, {t.p_win[1]}, {t.p_win[2]}}});
+  Scene scene = probe_frame(fmt::format("depth_arithmetic_{}", side), side, side);
+  add_triangles(scene, corners);
+  scene.frame.depth = DepthFormat::z24;
+  const Plane<double> left = prober.draw(scene).depth;
+  if (left.empty()) return false;
+  const auto take = [&](const SlopedTriangle& t, int x, int y) {
+    const glm::dvec2 sample = glm::dvec2(x, y) + c.sample;
+    if (!t.holds(sample)) return;
+    const double z = t.depth(sample), step = depth_step(format_of_24(c.depth_format), z),
+                 off = farther(0, (left(x, y) - z) / step + middle_of(c.depth_rounding)) - 0.5;
+    const auto fits = [&](C::DepthArithmetic arithmetic) {
+      return off <= kDoubleError + depth_error(arithmetic, t.p_win, sample) / step ? 1 : 0;
+    };
+    out.most = std::max(out.most, off);
+    ++out.pixels;
+    out.in_double += fits(C::DepthArithmetic::in_double);
+    out.in_float += fits(C::DepthArithmetic::in_float);
+    out.from_origin += fits(C::DepthArithmetic::in_float_from_origin);
+  };
+  for (const SlopedTriangle& t : triangles) {
+    const auto [low_x, high_x] = std::minmax({t.p_win[0].x, t.p_win[1].x, t.p_win[2].x});
+    const auto [low_y, high_y] = std::minmax({t.p_win[0].y, t.p_win[1].y, t.p_win[2].y});
+    for (int y = static_cast<int>(low_y); y < static_cast<int>(high_y); ++y) {
+      for (int x = static_cast<int>(low_x); x < static_cast<int>(high_x); ++x) take(t, x, y);
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
-// Pixels of a sloped triangle, each held to the interval of depths that round to what is left.
+// Pixels of sloped triangles, each held to the interval of depths that round to what is left.
 void learn_depth_arithmetic(Prober& prober) {
-  // Planes evaluated in float from the window's origin: 4 roundings, of the depth, of both slopes over the pixel's and
-  // the triangle's distance, and of the gradients, together less than 4; and u for a code (compare_depth()).
-  constexpr double kDoubleError = 1e-3, kFloatError = (4 * 4 + 1) * 0x1p-24;  // [step], [window z]
   const ConventionWords words = words_of("depth_arithmetic");
   C& c = prober.learned.conventions;
   for (const char* name : {"depth_format", "depth_rounding"}) {
     if (prober.is_open(name)) return prober.open(words, fmt::format("{} is open", name));
   }
-  const SlopedTriangle triangle;
-  const auto& p = triangle.p_win;
-  const std::array<std::array<ProbeCorner, 3>, 1> corners = {{{{{p[0]}, {p[1]}, {p[2]}}}}};
-  Scene scene = probe_frame("depth_arithmetic", 64, 64);
-  add_triangles(scene, corners);
-  scene.frame.depth = DepthFormat::z24;
-  const Plane<double> left = prober.draw(scene).depth;
-  if (left.empty()) return prober.open(words, "it leaves no planes.depth");
-  const DepthFormat format = format_of_24(c.depth_format);
-  std::size_t pixels = 0, in_double = 0, in_float = 0;
-  double most = 0;  // [step]
-  for (int y = 0; y < left.height(); ++y) {
-    for (int x = 0; x < left.width(); ++x) {
-      const glm::dvec2 sample = glm::dvec2(x, y) + c.sample;
-      if (!triangle.holds(sample)) continue;
-      const double z = triangle.depth(sample), step = depth_step(format, z),
-                   off = farther(0, (left(x, y) - z) / step + middle_of(c.depth_rounding)) - 0.5;
-      most = std::max(most, off);
-      ++pixels;
-      in_double += off <= kDoubleError ? 1 : 0;
-      in_float += off * step <= kFloatError ? 1 : 0;
-    }
-  }
-  const std::string evidence =
-      fmt::format("{} of {} depths of a triangle are rounded from the exact depth", in_double, pixels);
-  if (in_double == pixels) return prober.found(words, name_of(C::DepthArithmetic::in_double), evidence);
-  const std::string others = fmt::format("{}; others by up to {:.3g} steps more than rounding", evidence, most);
-  if (in_float < pixels) return prober.fits_none(words, others);
-  c.depth_arithmetic = C::DepthArithmetic::in_float;
-  prober.found(words, name_of(c.depth_arithmetic), others);
+  constexpr int kFinest = 10;  // places at multiples of 2^-10 pixel are exact (probe_scene.h)
+  const bool are_snapped = c.attribute_corners == C::Corners::snapped && c.subpixel_bits != C::kFloat;
+  const int bits = are_snapped ? std::min(c.subpixel_bits, kFinest) : kFinest;
+  Interpolated of;
+  if (!count(prober, 64, large_and_near(), of) || !count(prober, 512, small_and_far(bits), of))
+    return prober.open(words, "it leaves no planes.depth");
+  std::string evidence = fmt::format("{} of {} depths are rounded from the exact depth", of.in_double, of.pixels);
+  if (of.in_double < of.pixels) evidence += fmt::format("; others by up to {:.3g} steps more than rounding", of.most);
+  if (of.from_origin < of.pixels) return prober.fits_none(words, evidence);
+  c.depth_arithmetic = of.in_double == of.pixels  ? C::DepthArithmetic::in_double
+                       : of.in_float == of.pixels ? C::DepthArithmetic::in_float
+                                                  : C::DepthArithmetic::in_float_from_origin;
+  prober.found(words, name_of(c.depth_arithmetic), evidence);
 }
 
 // A rectangle moved towards the eye by many units, in depths of 24 and of 16 bits, beside one that is not.

@@ -51,26 +51,6 @@ double depth_rounding(const WindowTriangle<double>& t) {
   return std::isfinite(out) ? out : 0;
 }
 
-double depth_by_edge_functions(const WindowTriangle<double>& t, int x, int y) {
-  if (t.corners < 3) return 0;
-  const Vec2<double> p(x + 0.5, y + 0.5);
-  // |first| + |second| of the edge function of `at` and the edge `from`, `to`.
-  const auto terms = [](const Vec2<double>& from, const Vec2<double>& to, const Vec2<double>& at) {
-    const Vec2<double> along = to - from, off = at - from;
-    return std::abs(along.x * off.y) + std::abs(along.y * off.x);
-  };
-  const Vec2<double> corners[3] = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
-  const Barycentrics b = barycentrics(t, p.x, p.y);
-  const Vec2<double> e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
-  const double area = std::abs(e1.x * e2.y - e1.y * e2.x), of_area = terms(corners[0], corners[1], corners[2]) / area;
-  double out = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double of_edge = terms(corners[(i + 1) % 3], corners[(i + 2) % 3], p) / area, share = std::abs(b.value[i]);
-    out += std::abs(t.v[static_cast<std::size_t>(i)].p_win.z) * (4 * of_edge + 4 * share * of_area + 4 * share);
-  }
-  return out;
-}
-
 namespace {
 
 // Changes of the three q_i and of their sum within a block of 4 x 4 pixels, if a pipeline may evaluate them in float

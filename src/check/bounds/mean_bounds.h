@@ -21,11 +21,6 @@ Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y
 /// roundings of 2^-53. With slopes of 1 a pixel 1e-13; with slopes of 10^7 (slivers beside the eye) a step of z24.
 double depth_rounding(const WindowTriangle<double>& triangle);
 
-/// For a renderer that finds a depth in float as sum z_i e_i / area, e_i the edge functions [u]. An edge function and
-/// the area are each the difference of two products of differences: 4 u of |first| + |second|. Quotient, product and
-/// sum: 4 u of |z_i e_i / area|. Beside a sliver's long edges nearly all of e_i and of the area cancels.
-double depth_by_edge_functions(const WindowTriangle<double>& triangle, int x, int y);
-
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
 /// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
 /// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|), and what double arithmetic leaves of a

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/float_depth.h"
 #include "check/bounds/bounds.h"
 #include "check/bounds/mean_bounds.h"
 #include "check/bounds/shade_bounds.h"
@@ -121,26 +122,28 @@ Measurement compare_open_covered(const Capture& candidate, const Records<double>
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions, double from_origin) {
   const double middle = middle_of(conventions.depth_rounding);
-  const bool in_float = conventions.depth_arithmetic == Conventions::DepthArithmetic::in_float,
-             may_be_float = from_origin > 0 && (in_float || scene.frame.depth == DepthFormat::z32f);
   const OffsetErrors offsets(scene);
-  // Of a stranger's triangle in float, by planes from the window's origin or by edge functions [window z]; and of a code,
-  // a product and a sum: each half a unit in the last place of a number below 1.
+  // Of a stranger's triangle in float [window z]: by its declared arithmetic; else in formats that are float, by planes
+  // from the window's origin.
   const auto float_error = [&](const WindowTriangle<double>& t, const Covered& c) {
-    const double by_plane = from_origin * (bounds_from_origin(t, c.x, c.y).depth + offsets.of(t));
-    return u * std::max(by_plane, depth_by_edge_functions(t, c.x, c.y)) + (in_float ? u : 0);
+    const bool is_declared = conventions.depth_arithmetic != Conventions::DepthArithmetic::in_double;
+    if (from_origin == 0 || (!is_declared && scene.frame.depth != DepthFormat::z32f)) return 0.0;
+    const double by_plane = from_origin * u * (bounds_from_origin(t, c.x, c.y).depth + offsets.of(t));
+    if (!is_declared || t.corners < 3) return by_plane;
+    const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
+    return std::max(by_plane + u, depth_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}));
   };
-  return each_fragment(
-      "depths", "step", candidate, candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {
-        const double a = candidate.depth[i], b = reference.depth[i];
-        const Covered& c = candidate.covered[i];
-        const double step = depth_step(scene.frame.depth, b);
-        const double apart = difference(a + middle * step, b) / step;
-        const bool needed = apart > factor && c.triangle < candidate.triangles.size();
-        const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
-        const double allowance = needed && may_be_float ? float_error(candidate.triangles[c.triangle], c) / step : 0;
-        meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b, allowance);
-      });
+  return each_fragment("depths", "step", candidate, candidate.depth.size(), reference.depth.size(),
+                       [&](Meter& meter, std::size_t i) {
+                         const double a = candidate.depth[i], b = reference.depth[i];
+                         const Covered& c = candidate.covered[i];
+                         const double step = depth_step(scene.frame.depth, b);
+                         const double apart = difference(a + middle * step, b) / step;
+                         const bool needed = apart > factor && c.triangle < candidate.triangles.size();
+                         const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
+                         const double allowance = needed ? float_error(candidate.triangles[c.triangle], c) / step : 0;
+                         meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b, allowance);
+                       });
 }
 
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,

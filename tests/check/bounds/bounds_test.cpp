@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "check/bounds/mean_bounds.h"
 #include "reference/exact/barycentric.h"
 #include "tests/check/fixtures.h"
+#include "tests/float_depth.h"
 
 namespace plumbline::check {
 namespace {
@@ -161,37 +163,67 @@ TEST(Bounds, OfAMeanHoldForFloatArithmetic) {
       << "exact.attributes is absurdly loose";
 }
 
-// Edge functions, the area, quotients, products and the sum in float; corners as floats, of all shapes down to slivers.
-TEST(Bounds, OfADepthByEdgeFunctionsHoldForFloatArithmetic) {
+// Corners are floats, triangles of all shapes down to slivers.
+TEST(Bounds, OfDepthsInFloatHold) {
+  using Bound = double (*)(const WindowCorners&, glm::dvec2);
+  struct Case {
+    test::FloatDepth way;
+    Bound bound;
+    double least;  // of the largest share of the bound
+  };
+  for (const Case& of : {Case{test::FloatDepth::edge_functions, depth_by_edge_functions, 0.25},
+                         Case{test::FloatDepth::plane, depth_by_plane, 0.2},
+                         Case{test::FloatDepth::edge_equations, depth_by_edge_equations, 0.05}}) {
+    Random r;
+    Largest largest;
+    for (int n = 0; n < 40000; ++n) {
+      const WindowTriangle<double> t = random_triangle(r);
+      if (std::abs(unsnapped_area(t)) < 1e-3 || (unsnapped_area(t) > 0) != t.front) continue;
+      const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
+      for_pixels(t, r, [&](int x, int y, const glm::dvec3& w) {
+        const glm::dvec2 p(x + 0.5, y + 0.5);
+        const double exact = w.x * corners[0].z + w.y * corners[1].z + w.z * corners[2].z,
+                     depth = static_cast<double>(test::depth_in_float(of.way, corners, glm::vec2(p)));
+        if (std::isfinite(depth)) largest.add(std::abs(depth - exact) / kU, of.bound(corners, p));
+      });
+    }
+    std::printf("way %d: %.3f of the bound\n", static_cast<int>(of.way), largest.ratio);
+    EXPECT_GT(largest.items, 50000u);
+    EXPECT_LE(largest.ratio, 1) << static_cast<int>(of.way);
+    EXPECT_GE(largest.ratio, of.least) << static_cast<int>(of.way) << ": loose";
+  }
+  const WindowCorners none = {glm::dvec3(1, 1, 0.5), glm::dvec3(3, 3, 0.5), glm::dvec3(5, 5, 0.5)};
+  EXPECT_EQ(depth_by_edge_functions(none, {3, 3}), kInfinite) << "no area";
+}
+
+// Of a piece within the window, wherever it lies: no less than the bound of any such triangle.
+TEST(Bounds, OfPiecesAreTheLargest) {
+  using enum Conventions::DepthArithmetic;
   Random r;
-  Largest largest;
-  for (int n = 0; n < 40000; ++n) {
+  const glm::dvec2 window(256, 192);
+  std::size_t pieces = 0;
+  for (int n = 0; n < 20000; ++n) {
     const WindowTriangle<double> t = random_triangle(r);
-    if (std::abs(unsnapped_area(t)) < 1e-3 || (unsnapped_area(t) > 0) != t.front) continue;
-    const auto edge = [&](std::size_t from, std::size_t to, const glm::vec2& p) {
-      const glm::vec2 a(t.v[from].p_win), along = glm::vec2(t.v[to].p_win) - a, off = p - a;
-      return along.x * off.y - along.y * off.x;
-    };
-    const float area = edge(0, 1, glm::vec2(t.v[2].p_win));
-    if (area == 0) continue;
+    const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
+    double longest = 0;
+    bool is_within = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      longest = std::max(longest, glm::distance(glm::dvec2(corners[i]), glm::dvec2(corners[(i + 1) % 3])));
+      is_within &= corners[i].x >= 0 && corners[i].y >= 0 && corners[i].x <= window.x && corners[i].y <= window.y;
+    }
+    const double altitude = std::abs(unsnapped_area(t)) / longest;
+    if (!is_within || altitude < 1e-2) continue;
+    ++pieces;
     for_pixels(t, r, [&](int x, int y, const glm::dvec3& w) {
-      float depth = 0;
-      double exact = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const float share = edge((i + 1) % 3, (i + 2) % 3, glm::vec2(x, y) + 0.5f) / area;
-        depth += share * static_cast<float>(t.v[i].p_win.z);
-        exact += w[static_cast<int>(i)] * t.v[i].p_win.z;
-      }
-      largest.add(std::abs(static_cast<double>(depth) - exact) / kU, depth_by_edge_functions(t, x, y));
+      if (std::min({w.x, w.y, w.z}) < 0) return;
+      for (const auto arithmetic : {in_float, in_float_from_origin})
+        EXPECT_LE(depth_error(arithmetic, corners, {x + 0.5, y + 0.5}),
+                  depth_error_of_pieces(arithmetic, altitude, window));
     });
   }
-  RecordProperty("depth", std::to_string(largest.ratio));
-  EXPECT_GT(largest.items, 50000u);
-  EXPECT_LE(largest.ratio, 1);
-  EXPECT_GE(largest.ratio, 0.25) << "and not loose";
-  WindowTriangle<double> line;
-  line.corners = 2;
-  EXPECT_EQ(depth_by_edge_functions(line, 3, 3), 0);
+  EXPECT_GT(pieces, 3000u);
+  EXPECT_EQ(depth_error_of_pieces(in_double, 0, window), 0);
+  EXPECT_EQ(depth_error_of_pieces(in_float, 0, window), kInfinite);
 }
 
 // Weights in float within blocks of 4 x 4 pixels, in triangles where the weights' numerators and their sum change by at

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 
+#include "capture/float_depth.h"
 #include "check/bounds/bounds.h"
 #include "check/bounds/mean_bounds.h"
 #include "check/compare/compare_records.h"
@@ -167,13 +168,13 @@ TEST_F(Fragments, DepthsOfSliversAreHeldToTheRoundingOfTheirPlane) {
   EXPECT_EQ(depth_rounding(records.triangles[1]), 0) << "no plane";
 }
 
-// Of a renderer that declares depths in float, codes may be off by a plane's error, by that of edge functions where it
-// is larger, and by u.
+// Of a renderer that declares depths in float, codes may be off by that arithmetic's error, and by u.
 TEST_F(Fragments, DepthsInFloatAreHeldToTheirBound) {
-  Conventions in_float;
-  in_float.depth_arithmetic = Conventions::DepthArithmetic::in_float;
-  const auto compare = [&](const Conventions& conventions, double from_origin) {
-    return [&, from_origin](const auto& a, const auto& b) {
+  using enum Conventions::DepthArithmetic;
+  const auto compare = [&](Conventions::DepthArithmetic arithmetic, double from_origin) {
+    return [this, arithmetic, from_origin](const auto& a, const auto& b) {
+      Conventions conventions;
+      conventions.depth_arithmetic = arithmetic;
       return compare_depth(scene, a, b, 0.501, conventions, from_origin);
     };
   };
@@ -183,22 +184,25 @@ TEST_F(Fragments, DepthsInFloatAreHeldToTheirBound) {
       WindowTriangle<double>& t = records.triangles[1];
       t = triangle_of({{{2, 2, 0.25}, {512, 512, 0.25}, {514, 514 + 1.0 / 16, 0.25}}}, {1, 1, 1}, 1);
     }
-    const double by_plane = 4 * bounds_from_origin(records.triangles[1], 3, 3).depth,
-                 by_edges = depth_by_edge_functions(records.triangles[1], 3, 3);
-    EXPECT_EQ(by_edges > by_plane, sliver) << by_edges << " " << by_plane;
-    for (const DepthFormat format : {DepthFormat::z16, DepthFormat::z24}) {
-      scene.frame.depth = format;
-      const double half = 0.501 * depth_step(format, 0.25), bound = kU * (std::max(by_plane, by_edges) + 1);
-      EXPECT_TRUE(passes(run(compare(in_float, 4), moved(half + 0.99 * bound))));
-      EXPECT_TRUE(fails(run(compare(in_float, 4), moved(half + 1.01 * bound))));
-      EXPECT_TRUE(fails(run(compare(in_float, 0), moved(half + 0.1 * bound)))) << "plumbline's own";
-      EXPECT_TRUE(fails(run(compare({}, 4), moved(half + 0.1 * bound)))) << "not declared";
+    const auto& v = records.triangles[1].v;
+    const WindowCorners corners = {v[0].p_win, v[1].p_win, v[2].p_win};
+    const double by_plane = kU * 4 * bounds_from_origin(records.triangles[1], 3, 3).depth;
+    for (const auto arithmetic : {in_float, in_float_from_origin}) {
+      for (const DepthFormat format : {DepthFormat::z16, DepthFormat::z24}) {
+        scene.frame.depth = format;
+        const double half = 0.501 * depth_step(format, 0.25),
+                     bound = std::max(by_plane + kU, depth_error(arithmetic, corners, {3.5, 3.5}));
+        EXPECT_TRUE(passes(run(compare(arithmetic, 4), moved(half + 0.99 * bound))));
+        EXPECT_TRUE(fails(run(compare(arithmetic, 4), moved(half + 1.01 * bound))));
+        EXPECT_TRUE(fails(run(compare(arithmetic, 0), moved(half + 0.1 * bound)))) << "plumbline's own";
+        EXPECT_TRUE(fails(run(compare(in_double, 4), moved(half + 0.1 * bound)))) << "not declared";
+      }
     }
     scene.frame.depth = DepthFormat::z32f;
-    const double half = 0.501 * depth_step(DepthFormat::z32f, 0.25), bound = kU * std::max(by_plane, by_edges);
-    EXPECT_TRUE(passes(run(compare({}, 4), moved(half + 0.99 * bound)))) << "a float buffer";
-    EXPECT_TRUE(fails(run(compare({}, 4), moved(half + 1.01 * bound))));
-    EXPECT_TRUE(fails(run(compare({}, 4), moved(std::numeric_limits<double>::quiet_NaN()))));
+    const double half = 0.501 * depth_step(DepthFormat::z32f, 0.25);
+    EXPECT_TRUE(passes(run(compare(in_double, 4), moved(half + 0.99 * by_plane)))) << "a float buffer";
+    EXPECT_TRUE(fails(run(compare(in_double, 4), moved(half + 1.01 * by_plane))));
+    EXPECT_TRUE(fails(run(compare(in_float, 4), moved(std::numeric_limits<double>::quiet_NaN()))));
   }
 }
 

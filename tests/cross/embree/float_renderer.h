@@ -14,16 +14,18 @@
 #include "capture/stages.h"
 #include "reference/arithmetic/matrices.h"
 #include "tests/cross/embree_scenes.h"
+#include "tests/float_depth.h"
 
 namespace plumbline::test {
 
 /// Choices in which legal float renderers differ.
 struct Habits {
-  bool by_eye = false;          ///< P (M p) rather than (P M) p
-  bool in_double = false;       ///< the transform in double, rounded at the end
-  bool snapped_planes = false;  ///< depth and colour by planes through the snapped corners
-  bool reversed_clip = false;   ///< cut at the far plane first, at the right one last
-  double jitter = 0;            ///< largest relative error of a clip coordinate [2^-24]
+  bool by_eye = false;                  ///< P (M p) rather than (P M) p
+  bool in_double = false;               ///< the transform in double, rounded at the end
+  bool snapped_planes = false;          ///< depth and colour by planes through the snapped corners
+  bool reversed_clip = false;           ///< cut at the far plane first, at the right one last
+  FloatDepth depth = FloatDepth::none;  ///< how depths are interpolated in float; none: in double
+  double jitter = 0;                    ///< largest relative error of a clip coordinate [2^-24]
 };
 
 struct FloatVertex {
@@ -167,6 +169,11 @@ class FloatRenderer {
       z += b * v[i].z;
       inv_w += b * v[i].inv_w;
       c += b * v[i].inv_w * v[i].color;
+    }
+    if (habits_.depth != FloatDepth::none) {
+      const auto corner = [&](std::size_t i) { return glm::dvec3(v[i].p, v[i].z); };
+      const float in_float = depth_in_float(habits_.depth, {corner(0), corner(1), corner(2)}, glm::vec2(centre));
+      if (std::isfinite(in_float)) z = static_cast<double>(in_float);
     }
     ++count(x, y);
     const double code = depth_code(scene_.frame.depth, std::clamp(z, 0.0, 1.0));

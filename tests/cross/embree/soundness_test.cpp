@@ -107,6 +107,31 @@ TEST_P(Soundness, NorByTheTieRuleThatTheyDeclare) {
   std::printf("kind %d: %zu of %ld pixels open; illegal by another rule %d, by a coarser grid %d\n", GetParam(), open,
               own.pixels, other.counts, coarser.counts);
 }
+
+// Depths in float are legal where that arithmetic is declared, and not all are where none is.
+TEST_P(Soundness, NorByTheArithmeticOfDepthsThatTheyDeclare) {
+  using enum Conventions::DepthArithmetic;
+  using test::FloatDepth;
+  Outside declared, undeclared;
+  for (unsigned seed = 1; seed <= 1 + 8 / one_of(8); ++seed) {
+    const Scene scene = test::random_scene(GetParam(), seed);
+    for (const auto& [way, arithmetic] :
+         {std::pair(FloatDepth::edge_functions, in_float), std::pair(FloatDepth::plane, in_float),
+          std::pair(FloatDepth::edge_equations, in_float_from_origin)}) {
+      Request request;
+      request.conventions.depth_arithmetic = arithmetic;
+      judge(scene, math::legal_by_boxes(scene, request), {.depth = way}, declared);
+      judge(scene, math::legal_by_boxes(scene, Request{}), {.depth = way}, undeclared);
+    }
+  }
+  EXPECT_EQ(declared.winners, 0) << declared.first;
+  EXPECT_EQ(declared.depths, 0) << declared.first;
+  std::printf("kind %d: %ld pixels, %.3f %% ambiguous; illegal undeclared: %d winners, %d depths\n", GetParam(),
+              declared.pixels, 100.0 * static_cast<double>(declared.ambiguous) / static_cast<double>(declared.pixels),
+              undeclared.winners, undeclared.depths);
+  constexpr int kSlivers = 5;
+  EXPECT_TRUE(GetParam() != kSlivers || undeclared.depths > 0);
+}
 INSTANTIATE_TEST_SUITE_P(Kinds, Soundness, ::testing::Range(0, test::kSceneKinds));
 
 }  // namespace

@@ -1,0 +1,106 @@
+#include "capture/float_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline {
+
+namespace {
+
+constexpr double kU = 0x1p-24, kInfinity = std::numeric_limits<double>::infinity();
+
+// |first| + |second| of the cross product of two differences.
+double terms(glm::dvec2 a, glm::dvec2 b) { return std::abs(a.x * b.y) + std::abs(a.y * b.x); }
+
+double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+struct Edges {
+  explicit Edges(const WindowCorners& c)
+      : at{glm::dvec2(c[0]), glm::dvec2(c[1]), glm::dvec2(c[2])},
+        area(cross(at[1] - at[0], at[2] - at[0])),
+        area_terms(terms(at[1] - at[0], at[2] - at[0])) {}
+  glm::dvec2 from(std::size_t i) const { return at[(i + 1) % 3]; }  // of the edge opposite corner i
+  glm::dvec2 to(std::size_t i) const { return at[(i + 2) % 3]; }
+  double share(std::size_t i, glm::dvec2 p) const { return cross(to(i) - from(i), p - from(i)) / area; }
+
+  std::array<glm::dvec2, 3> at;
+  double area, area_terms;
+};
+
+double or_infinite(double v) { return std::isfinite(v) ? v : kInfinity; }
+
+double sum_of(glm::dvec2 v) { return v.x + v.y; }
+
+}  // namespace
+
+double depth_by_edge_functions(const WindowCorners& corners, glm::dvec2 p) {
+  const Edges edges(corners);
+  double out = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double share = std::abs(edges.share(i, p)),
+                 of_edge = terms(edges.to(i) - edges.from(i), p - edges.from(i)) / std::abs(edges.area),
+                 of_area = edges.area_terms / std::abs(edges.area);
+    out += 4 * std::abs(corners[i].z) * (of_edge + share * of_area + share);
+  }
+  return or_infinite(out);
+}
+
+double depth_by_plane(const WindowCorners& corners, glm::dvec2 p) {
+  const Edges edges(corners);
+  glm::dvec2 slope(0), farthest(0), from_corner(0), slope_terms(0);
+  double most = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 along = edges.to(i) - edges.from(i);
+    slope += corners[i].z * glm::dvec2(-along.y, along.x) / edges.area;
+    farthest = glm::max(farthest, glm::abs(edges.at[i]));
+    from_corner = glm::max(from_corner, glm::abs(p - edges.at[i]));
+    most = std::max(most, std::abs(corners[i].z));
+  }
+  for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {  // differences of depths times the other side's length
+    const glm::dvec2 other = glm::abs(edges.at[3 - i] - edges.at[0]);
+    slope_terms += std::abs(corners[i].z - corners[0].z) * glm::dvec2(other.y, other.x);
+  }
+  const glm::dvec2 slope_error = (slope_terms + edges.area_terms * glm::abs(slope)) / std::abs(edges.area);
+  return or_infinite(4 *
+                     (most + sum_of(glm::abs(slope) * (glm::abs(p) + farthest)) + sum_of(slope_error * from_corner)));
+}
+
+double depth_by_edge_equations(const WindowCorners& corners, glm::dvec2 p) {
+  const Edges edges(corners);
+  double z = 0, out = 0, c_terms = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 along = edges.to(i) - edges.from(i),
+                     ends = glm::abs(edges.from(i)) + glm::abs(edges.to(i));  // c = -(a x + b y) of their middle, or so
+    const double of_c = ends.x * ends.y;
+    out += std::abs(corners[i].z) * (std::abs(along.y * p.x) + std::abs(along.x * p.y) + of_c);
+    c_terms += of_c;
+    z += corners[i].z * edges.share(i, p);
+  }
+  return or_infinite(10 * (out + std::abs(z) * c_terms) / std::abs(edges.area));
+}
+
+double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p) {
+  using enum Conventions::DepthArithmetic;
+  if (arithmetic == in_double) return 0;
+  double out = std::max(depth_by_edge_functions(corners, p), depth_by_plane(corners, p));
+  if (arithmetic == in_float_from_origin) out = std::max(out, depth_by_edge_equations(corners, p));
+  return kU * (out + 1);
+}
+
+// A triangle of altitude h has A >= h L, L its longest side, at most the window's diagonal D: no less than h^2. Depths
+// are at most 1, a plane's slope is at most 2 / h, products of differences are at most L D, those of positions at most 4
+// times the window's area.
+double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, glm::dvec2 window) {
+  using enum Conventions::DepthArithmetic;
+  if (arithmetic == in_double) return 0;
+  if (!(altitude > 0)) return kInfinity;
+  const double thin = glm::length(window) / altitude;
+  const double by_edges = 4 * (3 * 2 * thin + 2 * thin + 1),
+               by_plane = 4 * (1 + 4 * sum_of(window) / altitude + 2 * (2 * thin + 4 * thin * thin)),
+               by_equations = 10 * 30 * window.x * window.y / (altitude * altitude);
+  const double in_differences = std::max(by_edges, by_plane);
+  return kU * ((arithmetic == in_float_from_origin ? std::max(in_differences, by_equations) : in_differences) + 1);
+}
+
+}  // namespace plumbline

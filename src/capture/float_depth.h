@@ -1,0 +1,38 @@
+// Error bounds of depths that a renderer interpolates in float, by its declared arithmetic (conventions.h).
+//
+// u = 2^-24 is float's unit roundoff. A triangle's corners a, b, c lie at window positions [pixel] with depths in [0,1];
+// e_i are its edge functions, A is twice its area.
+#pragma once
+
+#include <array>
+
+#include <glm/glm.hpp>
+
+#include "capture/conventions.h"
+
+namespace plumbline {
+
+using WindowCorners = std::array<glm::dvec3, 3>;
+
+/// Error of sum z_i e_i / A at p [u of window z]. An edge function and the area are each the difference of two products
+/// of differences: 4 u of |first| + |second|. Quotient, product and sum: 4 u of |z_i e_i / A|. Beside a sliver's long
+/// edges nearly all of e_i and of A cancels. Infinite without area.
+double depth_by_edge_functions(const WindowCorners& corners, glm::dvec2 p);
+
+/// Error of z_0 + dz/dx x + dz/dy y at p [u of window z], z_0 at the window's origin: 4 u of the three terms' magnitudes
+/// at p and at the farthest corner, and the gradients' error over p's distance from the corners.
+double depth_by_plane(const WindowCorners& corners, glm::dvec2 p);
+
+/// Error of a x + b y + c at p [u of window z], whose coefficients are sums of z_i times those of edge equations over the
+/// sum of their c, each c of window positions: 10 u of |z_i| (|a_i x| + |b_i y| + |c_i|'s terms) and of |z| times the
+/// terms of the sum, over A: difference, product, quotient and sums. Far from the origin small triangles lose most.
+double depth_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
+
+/// What a depth at p may be off by [window z], and u for a code: a product and a sum, half a unit in the last place of a
+/// number below 1 each. in_double: 0. in_float: the larger of the first two. in_float_from_origin: of all three.
+double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
+
+/// Likewise of every triangle within a window [pixels] whose least altitude is at least `altitude` [pixels].
+double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, glm::dvec2 window);
+
+}  // namespace plumbline
