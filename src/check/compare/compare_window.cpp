@@ -77,17 +77,21 @@ class RunComparison {
                their_answers = legal_.match(theirs, *their_list).value();
     for (std::size_t i = 0; i < mine.size(); ++i) {
       const WindowAnswer& answer = (*my_list)[my_answers[i]];
+      if (answer.has_no_area) {
+        meter_.ambiguous();
+        meter_.item();
+        continue;
+      }
       const auto same = my_list == their_list ? std::ranges::find(their_answers, my_answers[i]) : their_answers.end();
       const bool both = same != their_answers.end();
       const WindowTriangle<double>& other =
           both ? theirs[static_cast<std::size_t>(same - their_answers.begin())] : answer.record;
       const bool as_theirs = both && other.front == mine[i].front;
       if (!as_theirs) meter_.ambiguous();
-      compare(mine[i], other,
-              as_theirs       ? colors_of(other)
-              : mine[i].front ? colors_of(answer.record)
-                              : answer.back_color,
-              first + i);
+      const Colors& colors = as_theirs       ? colors_of(other)
+                             : mine[i].front ? colors_of(answer.record)
+                                             : answer.back_color;
+      compare_turned(mine[i], other, colors, first + i);
       meter_.item();
     }
     for (std::size_t i = mine.size(); i < theirs.size(); ++i) {
@@ -95,6 +99,26 @@ class RunComparison {
       meter_.item();
     }
     return true;
+  }
+
+  // compare(), with the other begun at the corner from which it fits best: positions first, then colours.
+  void compare_turned(const WindowTriangle<double>& a, WindowTriangle<double> b, Colors colors, std::size_t number) {
+    const auto apart = [&](std::size_t turn) {
+      double places = 0, shades = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto &v = a.v[k], &w = b.v[(k + turn) % 3];
+        places = std::max(places, glm::length(v.p_win - w.p_win));
+        shades = std::max(shades, glm::length(v.color - colors[(k + turn) % 3]));
+      }
+      return std::pair(places, shades);
+    };
+    std::size_t best = 0;
+    for (const std::size_t turn : {std::size_t{1}, std::size_t{2}}) {
+      if (a.corners == 3 && apart(turn) < apart(best)) best = turn;
+    }
+    std::ranges::rotate(b.v, b.v.begin() + static_cast<std::ptrdiff_t>(best));
+    std::ranges::rotate(colors, colors.begin() + static_cast<std::ptrdiff_t>(best));
+    compare(a, b, colors, number);
   }
 
   // Everything but the facing.

@@ -15,7 +15,8 @@ struct Edge {
   bool operator==(const Edge&) const = default;
 };
 
-// The numbers of the edges' ends in the order of one closed line through all of them; none: they are no such line.
+// The numbers of the edges' ends in the order of one closed line through all of them; none: they are no such line. As
+// many edges end at each number as begin there.
 std::vector<std::size_t> closed_line(std::span<const Edge> edges) {
   std::vector<std::size_t> line;
   if (edges.empty()) return line;
@@ -27,7 +28,7 @@ std::vector<std::size_t> closed_line(std::span<const Edge> edges) {
     at = next->to;
     if (at == line.front() && n + 1 < edges.size()) return {};
   }
-  return at == line.front() ? line : std::vector<std::size_t>();
+  return line;
 }
 
 // The edges, each cut where a vertex lies on it: of an edge that two parts share, a cut at a small angle may leave more in

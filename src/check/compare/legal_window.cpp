@@ -92,7 +92,8 @@ WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width
   return out;
 }
 
-// Each triangle of the fan is faced, and culled, by itself.
+// Each triangle of the fan is faced, and culled, by itself. One without area covers nothing, drawn or not, whatever it
+// faces.
 std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const WindowCorner> corners,
                               const Conventions& grid) {
   std::vector<WindowAnswer> out;
@@ -101,8 +102,9 @@ std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::sp
     const Area area = snapped_area(three, grid);
     WindowAnswer answer = answer_of(primitive, 3, 1, three[0], three[1], three[2]);
     const bool front = area.most > 0, back = area.least < 0;
-    answer.front = front && !is_culled(draw.cull, true);
-    answer.back = back && !is_culled(draw.cull, false);
+    answer.has_no_area = area.least == 0 && area.most == 0;
+    answer.front = answer.has_no_area || (front && !is_culled(draw.cull, true));
+    answer.back = answer.has_no_area || (back && !is_culled(draw.cull, false));
     answer.absent = (area.least <= 0 && area.most >= 0) || answer.front != front || answer.back != back;
     out.push_back(answer);
   }

@@ -21,6 +21,7 @@ struct WindowAnswer {
   std::array<Vec4<double>, 3> back_color;  ///< the corners' colours on a back face
   bool front = false, back = false;        ///< facings with which it may be there
   bool absent = false;                     ///< may be missing: no snapped area, or culled
+  bool has_no_area = false;                ///< on the grid: it covers nothing, drawn or not
 };
 
 /// Area that decides the facing of a polygon that is not filled: that of corners on the grid of the conventions, or, for

@@ -1,0 +1,92 @@
+// The comparator of stage 4 on declared grids, and of triangles without area.
+#include <algorithm>
+
+#include "tests/check/compare/window.h"
+
+namespace plumbline::check {
+namespace {
+
+Records<double> on_grid(Records<double> r, const Conventions& grid, bool has_last) {
+  r.triangles.back().front = true;
+  if (!has_last) r.triangles.pop_back();
+  for (WindowTriangle<double>& t : r.triangles) {
+    for (WindowVertex<double>& v : t.v) snap(v, grid);
+  }
+  return r;
+}
+
+// A triangle between two places of the grid of 1/256 pixel has an area on a finer one, and without any. One without
+// area may be there.
+TEST_F(Window, TrianglesHaveAnAreaOnTheDeclaredGrid) {
+  const double low = 50 + 0.3 / 256, high = 50 + 0.45 / 256;
+  records.triangles.back() = triangle_of({{{1, low, 0.25}, {90, low, 0.5}, {45, high, 0.75}}}, {1, 1, 1}, 3);
+  const auto& t = records.triangles.back();
+  records.polygons.polygons.pop_back();
+  records.polygons.vertices.resize(records.polygons.vertices.size() - 3);
+  add_polygon(records, 3, {t.v[2], t.v[0], t.v[1]});
+  Conventions grid;
+  for (const auto& [bits, has_area] : {std::pair(4, false), {8, false}, {10, true}, {Conventions::kFloat, true}}) {
+    grid.subpixel_bits = bits;
+    for (const bool is_there : {false, true}) {
+      const auto mine = on_grid(records, grid, is_there), exact = on_grid(records, grid, has_area);
+      EXPECT_EQ(passes(compare_window(scene, mine, exact, kFactor, grid)), is_there || !has_area) << bits << " bits";
+    }
+  }
+}
+
+// The last triangle is there or not by rounding on a grid of 1/256 pixel, and has no area on the others.
+TEST_F(Window, ATriangleThatMayHaveNoAreaMayBeThereOrNot) {
+  Conventions grid;
+  for (const int bits : {4, 8, 12}) {
+    grid.subpixel_bits = bits;
+    const auto with = on_grid(records, grid, true), without = on_grid(records, grid, false);
+    EXPECT_TRUE(passes(compare_window(scene, with, without, kFactor, grid))) << bits << " bits";
+    EXPECT_TRUE(passes(compare_window(scene, without, with, kFactor, grid))) << bits << " bits";
+  }
+}
+
+// Corners in one place: the colours tell where the triangle begins.
+TEST_F(Window, ATriangleOfNoAreaMayBeginAtAnyCorner) {
+  auto& p = records.polygons;
+  p.polygons.pop_back();
+  p.vertices.resize(p.vertices.size() - 3);
+  WindowTriangle<double>& t = records.triangles.back();
+  t = triangle_of({{{1, 50, 0.25}, {1, 50, 0.25}, {45, 50, 0.75}}}, {1, 1, 1}, 3);
+  t.v[0].color = Vec4<double>(1, 0, 0, 1), t.v[1].color = Vec4<double>(0, 1, 0, 1);
+  add_polygon(records, 3, {t.v[0], t.v[1], t.v[2]});
+  Records<double> reference = records;
+  reference.triangles.pop_back();
+  Conventions none;
+  none.subpixel_bits = Conventions::kFloat;
+  for (int turn = 0; turn < 3; ++turn) {
+    EXPECT_TRUE(passes(compare_window(scene, records, reference, kFactor, none))) << turn;
+    Records<double> wrong = records;
+    wrong.triangles.back().v[0].color.b = 0.5;
+    EXPECT_EQ(passes(compare_window(scene, wrong, reference, kFactor, none)), false) << turn;
+    std::ranges::rotate(t.v, t.v.begin() + 1);
+  }
+}
+
+// A clipper may leave triangles: each of primitive 2's, the last of which snapping may empty, is a polygon.
+TEST_F(Window, PolygonsOfOnePrimitiveAreJudgedTogether) {
+  const Change split = [](Records<double>& r) {
+    const ClipPolygon whole = r.polygons.polygons[1];
+    std::vector<ClipPolygon> made;
+    for (std::uint32_t i = 2; i < whole.count; ++i) {
+      made.push_back({whole.primitive, static_cast<std::uint32_t>(r.polygons.vertices.size()), 3});
+      for (const std::uint32_t k : {0u, i - 1, i})
+        r.polygons.vertices.push_back(ClipVertex<double>(r.polygons.vertices[whole.first + k]));
+    }
+    r.polygons.polygons.erase(r.polygons.polygons.begin() + 1);
+    r.polygons.polygons.insert(r.polygons.polygons.begin() + 1, made.begin(), made.end());
+  };
+  const auto with = [&](const Change& change) { return compare([&](auto& r) { split(r), change(r); }); };
+  EXPECT_TRUE(passes(with(kUnchanged)));
+  EXPECT_TRUE(passes(with([&](auto& r) { r.triangles.insert(r.triangles.begin() + 3, thin); })));
+  EXPECT_FALSE(passes(with(erase(1))));
+  EXPECT_FALSE(passes(with(erase(2))));
+  EXPECT_FALSE(passes(with([&](auto& r) { r.triangles.insert(r.triangles.begin() + 1, thin); }))) << "in another order";
+}
+
+}  // namespace
+}  // namespace plumbline::check
