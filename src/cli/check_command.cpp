@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -112,6 +113,13 @@ std::vector<std::filesystem::path> inputs_of(const CheckOptions& o, std::span<co
   return out;
 }
 
+// Whether other conventions may explain what is wrong: none are declared, or more scenes are wrong than right.
+bool may_be_conventions(const CheckOptions& o, std::span<const check::SceneVerdict> verdicts) {
+  if (o.candidate.conventions.empty()) return !report::all_hold(verdicts);
+  const report::FeatureTally all = report::whole_suite(verdicts);
+  return all.differs > all.holds;
+}
+
 }  // namespace
 
 int check(const CheckOptions& given) {
@@ -174,7 +182,7 @@ int check(const CheckOptions& given) {
   std::string summary = not_asked_line(o);
   const bool outside = !o.candidate.command.empty();
   if (outside) summary += convention_notes(o.candidate.conventions);
-  if (outside && !report::all_hold(verdicts)) summary += hint_of_conventions(o.candidate.conventions);
+  if (outside && may_be_conventions(o, verdicts)) summary += hint_of_conventions(o.candidate.conventions);
   if (outside && !can_confine()) summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
   summary += report::summary(verdicts, holds, seconds);

@@ -145,11 +145,12 @@ std::string known_faults(const Scene& scene, const Capture& left, const Renderer
                                         : "");
 }
 
-// Pointer to `plumb learn`: another renderer's frame is wrong, and no known fault draws such a frame.
+// Pointer to `plumb learn`: another renderer's frame is wrong, no conventions are declared, and no known fault draws
+// such a frame.
 std::string hint_where_unexplained(const DiagnoseOptions& o, const check::Diagnosis& diagnosis,
                                    const std::string& faults) {
   const bool is_ours = o.candidate.command.empty() && o.folder.empty();
-  if (is_ours || !faults.empty() || holds(diagnosis)) return "";
+  if (is_ours || !o.candidate.conventions.empty() || !faults.empty() || holds(diagnosis)) return "";
   return "\nno known fault draws such a frame; " + hint_of_conventions(o.candidate.conventions);
 }
 

@@ -51,6 +51,13 @@ void learn_clipping(Prober& prober) {
     prober.fits_none(volume, evidence);
     return prober.open(planes, "the view volume is open");
   }
+  // At depths of -0.5 and -0.25.
+  const bool is_clamped = near_cut || left.depth.empty() ||
+                          std::abs(left.depth(0, kFrameSize / 2) - left.depth(kFrameSize / 8, kFrameSize / 2)) < 1e-3;
+  if (!is_clamped) {
+    prober.found(volume, name_of(c.clip_depth), "nothing is cut off before the near plane");
+    return prober.fits_none(planes, "depths before the near plane are neither cut nor clamped: " + evidence);
+  }
   c.clip_depth = near_to(first, kFrameSize / 2) ? C::ClipDepth::zero_to_w : C::ClipDepth::minus_w_to_w;
   c.depth_planes = near_cut || far_cut ? C::DepthPlanes::cut : C::DepthPlanes::clamped;
   if (near_cut != far_cut)
@@ -75,7 +82,8 @@ void learn_interpolation(Prober& prober) {
   for (int x = 0; x < kFrameSize; ++x) {
     const double s = (x + c.sample.x) / kFrameSize, share = (s / 16) / ((1 - s) / 2 + s / 16);
     const auto near_to = [&](double v) {
-      return std::abs(255 * (static_cast<double>(color(x, kFrameSize / 2).r) - v)) < 2 + 255.0 * 0.3 / kFrameSize;
+      const glm::dvec3 off = glm::abs(glm::dvec3(color(x, kFrameSize / 2)) - v);
+      return std::max({off.r, off.g, off.b}) < 2.0 / 255 + 0.3 / kFrameSize;
     };
     perspective += near_to(share), affine += near_to(s);
   }

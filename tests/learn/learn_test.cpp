@@ -224,6 +224,25 @@ TEST(Learn, WhatNoValueExplainsIsAFinding) {
   const auto squared = [](Capture& c) {
     for (double& z : c.planes.depth.values()) z = std::floor(z * z * 1e3) / 1e3;
   };
+  const auto red_is_affine = [](Capture& c) {  // of a wall that recedes to the right
+    const int last = c.planes.color.width() - 1;
+    for (int x = 0; x <= last; ++x) {
+      for (int y = 0; y < c.planes.color.height(); ++y) {
+        glm::vec4& v = c.planes.color(x, y);
+        if (v.r > 0 && v.r < 1 && v.r == v.b) v.r = (static_cast<float>(x) + 0.5f) / static_cast<float>(last + 1);
+      }
+    }
+  };
+  const auto not_clamped = [](Capture& c) {  // nothing before the near plane is cut off, and depths are as they are
+    const int width = c.planes.depth.width();
+    for (int y = 0; y < c.planes.depth.height(); ++y) {
+      for (int x = 0; x < width / 4; ++x) {
+        if (c.planes.color(width / 2, y).r < 0.5f || c.planes.color(width - 1, y).r > 0.5f) continue;
+        c.planes.color(x, y) = glm::vec4(1);
+        c.planes.depth(x, y) = -0.5 + 2.0 * x / width;
+      }
+    }
+  };
   const auto swapped = [](Capture& c) {
     for (glm::vec4& v : c.planes.color.values()) std::swap(v.r, v.b);
   };
@@ -232,6 +251,8 @@ TEST(Learn, WhatNoValueExplainsIsAFinding) {
       {"color_rounding", "color_rounding: ", darker},
       {"depth_range", "depth_range: ", no_depths},
       {"depth_range", "depth_range: ", squared},
+      {"interpolation", "interpolation: ", red_is_affine},
+      {"depth_planes", "depth_planes: depths before the near plane are neither cut nor clamped", not_clamped},
       {nullptr, "red, green and blue are left in blue, green and red", swapped},
   };
   for (const Case& of : cases) {
