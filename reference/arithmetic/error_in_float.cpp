@@ -6,15 +6,12 @@
 
 namespace plumbline::math {
 
-double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d) {
+double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, double altitude) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
   const glm::dvec2 size(scene.width, scene.height);
   double out = 0;
-  if (t.cut) {
-    const double altitude = t.altitude - 2 * (t.reach - scene.snap);
-    out = depth_error_of_pieces(arithmetic, altitude, size);
-  }
+  if (t.cut) out = depth_error_of_pieces(arithmetic, altitude, size);
   if (!t.ahead) return out;
   WindowCorners corners;
   for (std::size_t i = 0; i < 3; ++i) {

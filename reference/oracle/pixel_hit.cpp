@@ -25,6 +25,17 @@ struct Place {
   double w = 0;           ///< clip w at `nearest`
 };
 
+/// Least altitude of the pieces for which a renderer may set up a plane at this pixel [pixels].
+double piece_altitude(const Projected& scene, const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
+  // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
+  // is deep inside, far from the triangle's edges, the cuts by near and far, and the frame's border (half a pixel away).
+  const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
+  const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
+  const bool deep = certain && at.border > margin && margin < from_frame &&
+                    std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
+  return (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - scene.snap);
+}
+
 /// S: factor by which the errors of a plane's corners may grow at a pixel of its triangle; infinite: without bound.
 double snap_weight(const Projected& scene, const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
   // A plane is set up through vertices within delta_E of their places, and evaluated at the pixel. With b' the pixel's
@@ -33,14 +44,7 @@ double snap_weight(const Projected& scene, const Triangle& t, const Place& at, g
   // are negative, each by no more than the step over the altitude. A triangle that is cut is drawn in pieces, which
   // have such borders inside it too.
   if (certain && !t.cut) return 1;
-  // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
-  // is deep inside, that is, far from the triangle's edges, from the cuts by near and far, and from the frame's border
-  // (half a pixel away; from a sample, less).
-  const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
-  const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
-  const bool deep = certain && at.border > margin && margin < from_frame &&
-                    std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
-  const double altitude = (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - scene.snap);
+  const double altitude = piece_altitude(scene, t, at, d, certain);
   return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
 }
 
@@ -138,7 +142,7 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
   }
   out.hit.certain = out.hit.certain && not_cut;
   set_window_depth(t, polygon_offset(t, offset, scene.depth, scene.conventions), clamps, lo, hi, weight,
-                   error_in_float(scene, t, d), out);
+                   error_in_float(scene, t, d, piece_altitude(scene, t, at, d, out.hit.certain)), out);
 }
 
 /// Gradients of the edge functions that weight attributes: where a renderer interpolates without perspective, each is
