@@ -49,6 +49,12 @@ PixelList box_short_by(const Triangle& t, const PixelBounds& box) {
   return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0, b.y0, b.x1 - columns, b.y1 - rows}, box);
 }
 
+template <int columns, int rows>
+PixelList box_begun_late_by(const Triangle& t, const PixelBounds& box) {
+  const PixelBounds b = pipeline::pixel_bounds(t);
+  return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0 + columns, b.y0 + rows, b.x1, b.y1}, box);
+}
+
 // The stage without triangles of det < 1, twice the area in pixels (ssloy/tinyrenderer, 87bc715, our_gl.cpp).
 PixelList small_dropped(const Triangle& t, const PixelBounds& box) {
   const bool is_small = std::abs(snapped_area(t)) < std::int64_t{kSubpixel} * kSubpixel;
@@ -252,6 +258,10 @@ constexpr std::array kRaster = {
           put<&Stages::coverage, triangles_by<box_short_by<1, 0>>>},
     Fault{"coverage.last_row_lost", "the bounding box lacks its last row", Stage::coverage,
           put<&Stages::coverage, triangles_by<box_short_by<0, 1>>>},
+    Fault{"coverage.first_column_lost", "the bounding box lacks its first column", Stage::coverage,
+          put<&Stages::coverage, triangles_by<box_begun_late_by<1, 0>>>},
+    Fault{"coverage.first_row_lost", "the bounding box lacks its first row", Stage::coverage,
+          put<&Stages::coverage, triangles_by<box_begun_late_by<0, 1>>>},
     Fault{"coverage.small_dropped", "triangles of less than half a pixel's area are dropped: det < 1", Stage::coverage,
           put<&Stages::coverage, triangles_by<small_dropped>>},
     Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,

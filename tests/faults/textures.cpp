@@ -29,6 +29,12 @@ FilteredTexel<float> half_texel_off(const TextureSetup& t, const TexCoords<float
   return pipeline::texture<float>(t, {at.s + half(t.width), at.t + half(t.height)}, g);
 }
 
+FilteredTexel<float> scaled_by_size_less_one(const TextureSetup& t, const TexCoords<float>& at,
+                                             const Gradients<float>& g) {
+  const auto scaled = [](float v, double texels) { return static_cast<float>(v * (texels - 1) / texels); };
+  return pipeline::texture<float>(t, {scaled(at.s, t.width), scaled(at.t, t.height)}, g);
+}
+
 // The remainder of |s|.
 FilteredTexel<float> negative_mirrored(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   const auto repeated = [](Wrap wrap, float v) { return wrap == Wrap::repeat ? std::abs(v) : v; };
@@ -138,6 +144,8 @@ constexpr std::array kTextures = {
     Fault{"texture.s_for_t", "s and t change places", Stage::texture, put<&Stages::texture, s_for_t>},
     Fault{"texture.half_texel_off", "texels are taken for points at their lower left corners", Stage::texture,
           put<&Stages::texture, half_texel_off>},
+    Fault{"texture.scaled_by_size_less_one", "texel coordinates are s (width - 1) and t (height - 1)", Stage::texture,
+          put<&Stages::texture, scaled_by_size_less_one>},
     Fault{"texture.clamp_for_repeat", "textures are not repeated, but drawn out from their edges", Stage::texture,
           put<&Stages::texture, texture_under<kClampForRepeat>>},
     Fault{"texture.negative_mirrored", "repeated textures are mirrored where coordinates are negative", Stage::texture,
