@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture/float_depth.h"
 #include "reference/oracle/oracle.h"
 #include "scene/scene.h"
 
@@ -64,6 +65,37 @@ TEST(OracleConventions, ACoarserGridLeavesMorePixelsOpen) {
   EXPECT_GT(with_4, with_8);
   EXPECT_GE(with_8, without);
   EXPECT_LE(without, 1u) << "no centre lies on an edge";
+}
+
+// By the error of the declared arithmetic to either side; of a triangle that is cut, by that of its pieces.
+TEST(OracleConventions, DepthsInFloatLieWithinTheErrorOfTheirArithmetic) {
+  using enum C::DepthArithmetic;
+  constexpr int kX = 12, kY = 11;
+  const WindowCorners whole = {glm::vec3(3.25f, 2.5f, 0.25f), glm::vec3(29.5f, 5.25f, 0.5f),
+                               glm::vec3(9.75f, 27.5f, 0.75f)};
+  WindowCorners beyond = whole;
+  beyond[1].x = 70;
+  const auto slack = [&](const WindowCorners& corners, C::DepthArithmetic arithmetic) {
+    const Scene scene = window_scene({{glm::vec3(corners[0]), glm::vec3(corners[1]), glm::vec3(corners[2])}});
+    C declared;
+    declared.depth_arithmetic = arithmetic;
+    const auto width = [&](const C& conventions) {
+      const Legal of = legal(scene, conventions);
+      const LegalAnswer& last = of.at(kX, kY).back();
+      EXPECT_EQ(last.primitive, 0);
+      return last.z_hi - last.z_lo;
+    };
+    return (width(declared) - width({})) / 2;
+  };
+  EXPECT_EQ(slack(whole, in_double), 0);
+  for (const auto arithmetic : {in_float, in_float_from_origin}) {
+    const double error = depth_error(arithmetic, whole, {kX + 0.5, kY + 0.5}),
+                 of_beyond = depth_error(arithmetic, beyond, {kX + 0.5, kY + 0.5});
+    EXPECT_GT(error, 0x1p-23);
+    EXPECT_NEAR(slack(whole, arithmetic), error, 0.01 * error);
+    EXPECT_GT(slack(beyond, arithmetic), 1.5 * of_beyond);
+    EXPECT_LT(slack(beyond, arithmetic), 0.01);
+  }
 }
 
 // A corner half way between two places of the grid leaves open what it decides, and no more.
