@@ -116,8 +116,8 @@ class RunComparison {
     for (const std::size_t turn : {std::size_t{1}, std::size_t{2}}) {
       if (a.corners == 3 && apart(turn) < apart(best)) best = turn;
     }
-    std::ranges::rotate(b.v, b.v.begin() + static_cast<std::ptrdiff_t>(best));
-    std::ranges::rotate(colors, colors.begin() + static_cast<std::ptrdiff_t>(best));
+    std::rotate(b.v.begin(), b.v.begin() + static_cast<std::ptrdiff_t>(best), b.v.end());
+    std::rotate(colors.begin(), colors.begin() + static_cast<std::ptrdiff_t>(best), colors.end());
     compare(a, b, colors, number);
   }
 

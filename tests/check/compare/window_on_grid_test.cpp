@@ -63,7 +63,7 @@ TEST_F(Window, ATriangleOfNoAreaMayBeginAtAnyCorner) {
     Records<double> wrong = records;
     wrong.triangles.back().v[0].color.b = 0.5;
     EXPECT_EQ(passes(compare_window(scene, wrong, reference, kFactor, none)), false) << turn;
-    std::ranges::rotate(t.v, t.v.begin() + 1);
+    std::rotate(t.v.begin(), t.v.begin() + 1, t.v.end());
   }
 }
 
