@@ -28,7 +28,9 @@ TEST_F(Window, TrianglesHaveAnAreaOnTheDeclaredGrid) {
   for (const auto& [bits, has_area] : {std::pair(4, false), {8, false}, {10, true}, {Conventions::kFloat, true}}) {
     grid.subpixel_bits = bits;
     for (const bool is_there : {false, true}) {
-      const auto mine = on_grid(records, grid, is_there), exact = on_grid(records, grid, has_area);
+      auto mine = on_grid(records, grid, is_there);
+      const auto exact = on_grid(records, grid, has_area);
+      if (is_there && !has_area) mine.triangles.back().v[0].color.r = 0.125f;  // of nothing that is drawn
       EXPECT_EQ(passes(compare_window(scene, mine, exact, kFactor, grid)), is_there || !has_area) << bits << " bits";
     }
   }
