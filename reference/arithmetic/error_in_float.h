@@ -7,8 +7,8 @@
 
 namespace plumbline::math {
 
-/// Of a triangle's depth at the ray d [window z]; of one that is cut, of its pieces as well, of at least `altitude`
-/// [pixels]. 0 of a renderer in double; infinite where a piece may have no area.
+/// Error of a triangle's depth at the ray d [window z]; if the triangle is cut, of its pieces' depths, too, whose
+/// altitudes are at least `altitude` [pixels]. 0 for a renderer in double; infinite where a piece may have no area.
 double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double altitude);
 
 }  // namespace plumbline::math

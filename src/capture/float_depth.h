@@ -28,11 +28,11 @@ double depth_by_plane(const WindowCorners& corners, glm::dvec2 p);
 /// terms of the sum, over A: difference, product, quotient and sums. Far from the origin small triangles lose most.
 double depth_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
-/// What a depth at p may be off by [window z], and u for a code: a product and a sum, half a unit in the last place of a
-/// number below 1 each. in_double: 0. in_float: the larger of the first two. in_float_from_origin: of all three.
+/// Error of a depth at p [window z], and u for its code: a product and a sum, half a unit in the last place of a number
+/// below 1 each. in_double: 0. in_float: the larger of the first two. in_float_from_origin: of all three.
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
 
-/// Likewise of every triangle within a window [pixels] whose least altitude is at least `altitude` [pixels].
+/// Bound of depth_error() for every triangle within a window [pixels], of altitudes of at least `altitude` [pixels].
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, glm::dvec2 window);
 
 }  // namespace plumbline

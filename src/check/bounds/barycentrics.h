@@ -11,9 +11,9 @@ struct Barycentrics {
   Vec3<double> value, d_dx, d_dy;
 };
 
-/// `x`, `y` [pixel].
+/// Weights of the point (x, y) [pixel].
 Barycentrics barycentrics(const WindowTriangle<double>& triangle, double x, double y);
-/// Of a line's projection; value[1] is the share of the way to its second end.
+/// Weights of the point's projection onto a line; value[1] is the share of the way to the line's second end.
 Barycentrics along_line(const WindowTriangle<double>& line, double x, double y);
 
 }  // namespace plumbline::check

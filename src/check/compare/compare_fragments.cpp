@@ -123,8 +123,8 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
                           double factor, const Conventions& conventions, double from_origin) {
   const double middle = middle_of(conventions.depth_rounding);
   const OffsetErrors offsets(scene);
-  // Of a stranger's triangle in float [window z]: by its declared arithmetic; else in formats that are float, by planes
-  // from the window's origin.
+  // Error of a stranger's depth in float [window z]: by the declared arithmetic; else, in formats that are float, by
+  // planes from the window's origin.
   const auto float_error = [&](const WindowTriangle<double>& t, const Covered& c) {
     const bool is_declared = conventions.depth_arithmetic != Conventions::DepthArithmetic::in_double;
     if (from_origin == 0 || (!is_declared && scene.frame.depth != DepthFormat::z32f)) return 0.0;

@@ -196,7 +196,7 @@ TEST(Bounds, OfDepthsInFloatHold) {
   EXPECT_EQ(depth_by_edge_functions(none, {3, 3}), kInfinite) << "no area";
 }
 
-// Of a piece within the window, wherever it lies: no less than the bound of any such triangle.
+// The bound of a piece within the window, wherever the piece lies, is no less than that of any such triangle.
 TEST(Bounds, OfPiecesAreTheLargest) {
   using enum Conventions::DepthArithmetic;
   Random r;

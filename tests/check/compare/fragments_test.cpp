@@ -168,7 +168,7 @@ TEST_F(Fragments, DepthsOfSliversAreHeldToTheRoundingOfTheirPlane) {
   EXPECT_EQ(depth_rounding(records.triangles[1]), 0) << "no plane";
 }
 
-// Of a renderer that declares depths in float, codes may be off by that arithmetic's error, and by u.
+// Codes of a renderer that declares depths in float may be off by that arithmetic's error, and by u.
 TEST_F(Fragments, DepthsInFloatAreHeldToTheirBound) {
   using enum Conventions::DepthArithmetic;
   const auto compare = [&](Conventions::DepthArithmetic arithmetic, double from_origin) {
