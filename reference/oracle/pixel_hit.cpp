@@ -28,7 +28,7 @@ struct Place {
 /// Least altitude of the pieces for which a renderer may set up a plane at this pixel [pixels].
 double piece_altitude(const Projected& scene, const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
   // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
-  // is deep inside, far from the triangle's edges, the cuts by near and far, and the frame's border (half a pixel away).
+  // is deep inside, far from the triangle's edges, the near and far cuts, and the frame's border (half a pixel away).
   const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
   const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
   const bool deep = certain && at.border > margin && margin < from_frame &&

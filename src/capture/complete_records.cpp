@@ -158,8 +158,8 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
 
 // ---- depths
 
-// How far from code / (2^n - 1) doubles in [0,1] may be that were computed from the code, such as 1 - code' / (2^n - 1):
-// by 8 roundings, of 2^-53 each. Codes are 2^-24 apart or more.
+// How far from code / (2^n - 1) doubles in [0,1] may be that were computed from the code, such as 1 - code' / (2^n -
+// 1): by 8 roundings, of 2^-53 each. Codes are 2^-24 apart or more.
 constexpr double kCodeRoundings = 0x1p-50;
 
 // ---- order

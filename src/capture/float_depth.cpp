@@ -89,8 +89,8 @@ double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners&
 }
 
 // A triangle of altitude h has A >= h L, L its longest side, at most the window's diagonal D: no less than h^2. Depths
-// are at most 1, a plane's slope is at most 2 / h, products of differences are at most L D, those of positions at most 4
-// times the window's area.
+// are at most 1, a plane's slope is at most 2 / h, products of differences are at most L D, those of positions at most
+// 4 times the window's area.
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, glm::dvec2 window) {
   using enum Conventions::DepthArithmetic;
   if (arithmetic == in_double) return 0;

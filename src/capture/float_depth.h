@@ -1,7 +1,7 @@
 // Error bounds of depths that a renderer interpolates in float, by its declared arithmetic (conventions.h).
 //
-// u = 2^-24 is float's unit roundoff. A triangle's corners a, b, c lie at window positions [pixel] with depths in [0,1];
-// e_i are its edge functions, A is twice its area.
+// u = 2^-24 is float's unit roundoff. A triangle's corners a, b, c lie at window positions [pixel] with depths in
+// [0,1]; e_i are its edge functions, A is twice its area.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ using WindowCorners = std::array<glm::dvec3, 3>;
 /// edges nearly all of e_i and of A cancels. Infinite without area.
 double depth_by_edge_functions(const WindowCorners& corners, glm::dvec2 p);
 
-/// Error of z_0 + dz/dx x + dz/dy y at p [u of window z], z_0 at the window's origin: 4 u of the three terms' magnitudes
-/// at p and at the farthest corner, and the gradients' error over p's distance from the corners.
+/// Error of z_0 + dz/dx x + dz/dy y at p [u of window z], z_0 at the window's origin: 4 u of the three terms'
+/// magnitudes at p and at the farthest corner, and the gradients' error over p's distance from the corners.
 double depth_by_plane(const WindowCorners& corners, glm::dvec2 p);
 
-/// Error of a x + b y + c at p [u of window z], whose coefficients are sums of z_i times those of edge equations over the
-/// sum of their c, each c of window positions: 10 u of |z_i| (|a_i x| + |b_i y| + |c_i|'s terms) and of |z| times the
-/// terms of the sum, over A: difference, product, quotient and sums. Far from the origin small triangles lose most.
+/// Error of a x + b y + c at p [u of window z], whose coefficients are sums of z_i times those of edge equations over
+/// the sum of their c, each c of window positions: 10 u of |z_i| (|a_i x| + |b_i y| + |c_i|'s terms) and of |z| times
+/// the terms of the sum, over A: difference, product, quotient and sums. Far from the origin small triangles lose most.
 double depth_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
 /// Error of a depth at p [window z], and u for its code: a product and a sum, half a unit in the last place of a number

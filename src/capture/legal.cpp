@@ -36,8 +36,8 @@ struct Held {
   std::int32_t surface;
 };
 
-/// `hit` against the depth that the frame holds; depths no more than a step apart may compare either way, so that "less"
-/// and "less or equal" allow the same, but at the ends of formats with codes. Depths of one surface are equal.
+/// `hit` against the depth that the frame holds; depths no more than a step apart may compare either way, so that
+/// "less" and "less or equal" allow the same, but at the ends of formats with codes. Depths of one surface are equal.
 Test depth_test(const Hit& of, const Held& frame, DepthFormat format) {
   const DepthFunc func = of.depth_func;
   const Interval hit{of.z_lo, of.z_hi}, held = frame.z;

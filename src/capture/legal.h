@@ -90,8 +90,8 @@ class LegalFold {
 
 /// All legal winners of a pixel, in draw order, the background first; one entry per winner and stencil value.
 /// `hits` in draw order (ascending primitive), groups numbered from 0 on. Depths within depth_step() (scene.h) of each
-/// other may compare either way, but for two that are clamped to the same end, for those of one surface, and, in formats
-/// with codes, for the end that less_equal (1) or greater_equal (0) cannot fail over. `out` is emptied first.
+/// other may compare either way, but for two that are clamped to the same end, for those of one surface, and, in
+/// formats with codes, for the end that less_equal (1) or greater_equal (0) cannot fail over. `out` is emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
 /// Legal texels of a fragment: its level of detail may be taken for four pixels together, by a logarithm that is linear

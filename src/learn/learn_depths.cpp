@@ -254,8 +254,8 @@ DepthFormat format_of_24(C::Depth format) {
   return format == C::Depth::z16 ? DepthFormat::z16 : format == C::Depth::z32f ? DepthFormat::z32f : DepthFormat::z24;
 }
 
-// Depths of pixels within triangles, counted: those that are rounded from the exact depth, and those that are within the
-// error of each arithmetic besides.
+// Depths of pixels within triangles, counted: those that are rounded from the exact depth, and those that are within
+// the error of each arithmetic besides.
 struct Interpolated {
   std::size_t pixels = 0, in_double = 0, in_float = 0, from_origin = 0;
   double most = 0;  // [steps more than rounding]

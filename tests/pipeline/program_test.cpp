@@ -158,8 +158,8 @@ struct Position {
   }
 };
 
-// Error: 10 u of a mean of terms of up to 2.4 times the largest corner (check/bounds/mean_bounds.h, bounds_of_mean), of x
-// and of w, over w; and of the corners' window positions 4 u of the frame's 2 NDC.
+// Error: 10 u of a mean of terms of up to 2.4 times the largest corner (check/bounds/mean_bounds.h, bounds_of_mean), of
+// x and of w, over w; and of the corners' window positions 4 u of the frame's 2 NDC.
 TEST(Program, CutTrianglesVaryingsAreThoseOfTheirPixels) {
   const Position program{{glm::vec4(-3, -2, -6, -4), {9, -5, 7, 8}, {-2, 6, 3, 4}}};  // the first lies behind the eye
   const FrameFormat format = floats(120, 90, glm::vec4(0));

@@ -43,8 +43,8 @@ void claim_process(std::string_view library, MesaDriver driver, ShaderCode code)
     // nopt: shaders that are not optimised draw the same bits, and compile three times as fast.
     constexpr const char* kPerf[] = {"no_aos_sampling,no_filter_hacks,nopt", "no_aos_sampling,no_filter_hacks", ""};
     setenv("GALLIVM_PERF", kPerf[static_cast<std::size_t>(code)], 1);
-    // Scenes are judged in processes side by side. Threads of llvmpipe draw the same bits, and wait for each other at each
-    // read-back: 424 scenes take a third longer, one of 26,000 edges in feedback five times as long.
+    // Scenes are judged in processes side by side. Threads of llvmpipe draw the same bits, and wait for each other at
+    // each read-back: 424 scenes take a third longer, one of 26,000 edges in feedback five times as long.
     setenv("LP_NUM_THREADS", "0", 0);
     if (driver == MesaDriver::softpipe) setenv("DRAW_USE_LLVM", "0", 1);  // else feedback with lighting is wrong
     unsetenv("LP_NATIVE_VECTOR_WIDTH");

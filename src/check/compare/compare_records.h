@@ -84,8 +84,9 @@ bool are_sums_of(const Records<double>& records, const Planes& planes);
 /// (compare_planes.h), as long as others differ.
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal);
 /// In steps of the depth format; rounded to it as the candidate's conventions say. `from_origin`: of a renderer that
-/// may interpolate in float, u of bounds_from_origin()'s magnitude that a depth of a float format may be off by besides;
-/// and a code, where the conventions say that depths are interpolated in float (else a truncated code would pass).
+/// may interpolate in float, u of bounds_from_origin()'s magnitude that a depth of a float format may be off by
+/// besides; and a code, where the conventions say that depths are interpolated in float (else a truncated code would
+/// pass).
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions = {}, double from_origin = 0);
 /// `from_origin`: as in compare_depth().

@@ -31,8 +31,8 @@ std::vector<std::size_t> closed_line(std::span<const Edge> edges) {
   return line;
 }
 
-// The edges, each cut where a vertex lies on it: of an edge that two parts share, a cut at a small angle may leave more in
-// one part than in the other.
+// The edges, each cut where a vertex lies on it: of an edge that two parts share, a cut at a small angle may leave more
+// in one part than in the other.
 std::vector<Edge> split_at(std::span<const ClipVertex<double>> vertices, std::span<const Edge> edges,
                            const Corners& corners, double tolerance) {
   std::vector<Edge> out;

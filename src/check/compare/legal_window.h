@@ -24,8 +24,8 @@ struct WindowAnswer {
   bool has_no_area = false;                ///< on the grid: it covers nothing, drawn or not
 };
 
-/// Area that decides the facing of a polygon that is not filled: that of corners on the grid of the conventions, or, for
-/// renderers that decide before they snap, either. OpenGL 2.1, equation 3.6, leaves snapping open.
+/// Area that decides the facing of a polygon that is not filled: that of corners on the grid of the conventions, or,
+/// for renderers that decide before they snap, either. OpenGL 2.1, equation 3.6, leaves snapping open.
 enum class FacingArea { snapped, either };
 
 struct WindowCorner;
@@ -33,8 +33,8 @@ struct WindowCorner;
 class LegalWindow {
  public:
   /// `records`: matrices and clip polygons of the renderer that is judged, with the varying back_color where faces have
-  /// colours of their own. `factor`: of u of the magnitude of p_win, its error (ledger, exact.window). `conventions`: the
-  /// grid, and the sample, to whose pixel's centre window positions were moved (capture/by_conventions.h).
+  /// colours of their own. `factor`: of u of the magnitude of p_win, its error (ledger, exact.window). `conventions`:
+  /// the grid, and the sample, to whose pixel's centre window positions were moved (capture/by_conventions.h).
   LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area,
               const Conventions& conventions = {});
 

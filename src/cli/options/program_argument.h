@@ -42,8 +42,8 @@ Conventions conventions_of(const std::string& file);
 /// a renderer that declares none. Throws JsonError.
 std::string convention_notes(const std::string& file);
 
-/// For people, of a renderer that is wrong: its conventions may be others than the file declares, or than OpenGL's where
-/// there is no file; how to find them. A line and a command.
+/// For people, of a renderer that is wrong: its conventions may be others than the file declares, or than OpenGL's
+/// where there is no file; how to find them. A line and a command.
 std::string hint_of_conventions(const std::string& file);
 
 /// The command line with {submission} replaced by the folder's absolute path, quoted for a shell. Throws
