@@ -171,10 +171,11 @@ class OpaqueRun {
       const W codes = W(corner) + to_wide(group.x()) * W(code.x) + to_wide(group.y()) * W(code.y);
       store(to_float(round_even(clamped(codes, W(0), W(kMostZ24)))), farthest_ahead);
     };
+    PackedTile* const tiles = tiles_;  // a local: the compiler would reload a member after each store
     const auto block = [&](int x, int y, int lane, const Mask<R>(&covered)[kSamples][kParts<R>], auto whole) {
       constexpr bool kWhole = decltype(whole)::value;
       go_to_row(y);
-      const int place = block_offset(x, y);
+      const int place = block_offset(x, y);  // 16 a block
       W of_column[kPlanes];
       for (int k = kSamples - 1; k < kPlanes; ++k) of_column[k] = Lanes<R>::columns_of_block(x, 0) * plane[k]->x;
       const auto value = [&](int k, int part) {  // value_at(); all depths have the same slopes
@@ -193,7 +194,7 @@ class OpaqueRun {
           } else {
             z = to_float(nearest_int(value(i, part)));
           }
-          float* const to = tiles_[i].depth + place + part * kLanes;
+          float* const to = tiles[i].depth + place + part * kLanes;
           const R held = Lanes<R>::load(to);
           Mask<R>& here = kept[part][static_cast<std::size_t>(i)];
           here = kFromEither ? z < held + tie : z < held;
@@ -221,7 +222,7 @@ class OpaqueRun {
           };
           const auto store_each = [&](auto codes) {
             for (int i = 0; i < kSamples; ++i) {
-              std::uint32_t* const to = tiles_[i].color + place + part * kLanes;
+              std::uint32_t* const to = tiles[i].color + place + part * kLanes;
               store_packed(kept[part][static_cast<std::size_t>(i)], codes(to), to);
             }
           };
@@ -242,8 +243,7 @@ class OpaqueRun {
       if constexpr (kSamples == 1 && !kWhole) return;
       for (int i = 0; i < kSamples; ++i) {
         if (!all(full[i])) continue;
-        tiles_[i].farthest[y / kBlock * (kTile / kBlock) + x / kBlock] =
-            kWhole ? farthest_ahead[lane] : greatest_lane(farthest[i]);
+        tiles[i].farthest[place >> 4] = kWhole ? farthest_ahead[lane] : greatest_lane(farthest[i]);
       }
     };
     visit_covered<R, kSamples>(s, nearer_blocks, ahead, block);

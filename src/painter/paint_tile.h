@@ -1,8 +1,9 @@
-// Stages 5 to 11 of a tile: its runs of triangles, each by its draw's kernel (paint_opaque.h, paint_lines.h) or by
+// Stages 5 to 12 of a tile: its runs of triangles, each by its draw's kernel (paint_opaque.h, paint_lines.h) or by
 // paint_run(), which serves any state; then the tile is written to the frame.
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "kernels/merge.h"
 #include "painter/paint_lines.h"
@@ -152,37 +153,25 @@ bool has_whole_lanes(const Frame& frame, int x0) {
   return kLanes >= kBlock && columns % kLanes == 0 && !frame.depth_code.empty() && frame.stencil.empty();
 }
 
-/// Writes the tile's part of a plane of 32-bit pixels. values_at(x, y): the row's next vector from (x, y) of the tile
-/// on. Where every row is aligned to a vector, stores bypass the caches, which are smaller than a frame.
+/// Writes rows [from, to) of the tile to its part of a plane of 32-bit pixels. values_at(x, y): the row's next vector
+/// from (x, y) of the tile on. Where every row is aligned to a vector, stores bypass the caches, which are smaller than
+/// a frame.
 template <class R>
-void write_lanes(auto& plane, int x0, int y0, auto values_at) {
+void write_rows(auto& plane, int x0, int y0, int from, int to, auto values_at) {
   constexpr int kLanes = Lanes<R>::width;
-  const int columns = std::min(kTile, plane.width() - x0), rows = std::min(kTile, plane.height() - y0);
+  const int columns = std::min(kTile, plane.width() - x0), end = std::min(to, plane.height() - y0);
   const auto write = [&](auto put) {
-    for (int y = 0; y < rows; ++y) {
-      auto* to = reinterpret_cast<std::int32_t*>(plane.row(y0 + y) + x0);
-      for (int x = 0; x < columns; x += kLanes) put(values_at(x, y), to + x);
+    for (int y = from; y < end; ++y) {
+      auto* row = reinterpret_cast<std::int32_t*>(plane.row(y0 + y) + x0);
+      for (int x = 0; x < columns; x += kLanes) put(values_at(x, y), row + x);
     }
   };
   const auto first = reinterpret_cast<std::uintptr_t>(plane.row(y0) + x0);
   if (first % (4 * kLanes) == 0 && plane.width() % kLanes == 0) {
-    write([](const Int<R>& values, std::int32_t* to) { stream(values, to); });
+    write([](const Int<R>& values, std::int32_t* pixels) { stream(values, pixels); });
   } else {
-    write([](const Int<R>& values, std::int32_t* to) { store(values, to); });
+    write([](const Int<R>& values, std::int32_t* pixels) { store(values, pixels); });
   }
-}
-
-/// write_out(), by vectors where rows are whole ones; one plane after the other, for two streams of stores are slower.
-template <class R>
-void copy_out(PackedTile& tile, Frame& frame) {
-  if (!has_whole_lanes<R>(frame, tile.x0)) return write_out(tile, frame);
-  const auto row = [](const float* blocks, int x, int y) {
-    return Lanes<R>::load_row(blocks + block_offset(x, y) + y % kBlock * kBlock);
-  };
-  const auto* color = reinterpret_cast<const float*>(tile.color);
-  write_lanes<R>(frame.color_rgba8, tile.x0, tile.y0, [&](int x, int y) { return as_int(row(color, x, y)); });
-  write_lanes<R>(frame.depth_code, tile.x0, tile.y0, [&](int x, int y) { return to_int(row(tile.depth, x, y)); });
-  Lanes<R>::end_of_stream();
 }
 
 /// Writes a tile without triangles to the frame. Returns false, and writes nothing, unless has_whole_lanes().
@@ -191,26 +180,70 @@ bool clear_out(const Painting& painting, int x0, int y0, Frame& frame) {
   if (!has_whole_lanes<R>(frame, x0)) return false;
   const auto [z, c] = clear_pixel(painting.format);
   const Int<R> color = packed_codes(R(c.r), R(c.g), R(c.b), R(c.a)), depth = to_int(R(z));
-  write_lanes<R>(frame.color_rgba8, x0, y0, [&](int, int) { return color; });
-  write_lanes<R>(frame.depth_code, x0, y0, [&](int, int) { return depth; });
-  Lanes<R>::end_of_stream();
+  write_rows<R>(frame.color_rgba8, x0, y0, 0, kTile, [&](int, int) { return color; });
+  write_rows<R>(frame.depth_code, x0, y0, 0, kTile, [&](int, int) { return depth; });
   return true;
 }
 
+/// Fills pixels [from, to) of the tile's arrays with the clear depth; with the clear colour.
+template <class R>
+void clear_depths(auto& tile, const ClearPixel& clear, int from, int to) {
+  for (int i = from; i < to; i += Lanes<R>::width) store(R(clear.depth), tile.depth + i);
+}
+template <class R>
+void clear_colors(Tile& tile, const ClearPixel& clear, int from, int to) {
+  for (int c = 0; c < 4; ++c) {
+    for (int i = from; i < to; i += Lanes<R>::width) store(R(clear.color[c]), tile.color[c] + i);
+  }
+}
+template <class R>
+void clear_colors(PackedTile& tile, const ClearPixel& clear, int from, int to) {
+  const Color<R> color(clear.color);
+  const Int<R> codes = packed_codes(color.r, color.g, color.b, color.a);
+  for (int i = from; i < to; i += Lanes<R>::width) store(codes, reinterpret_cast<std::int32_t*>(tile.color + i));
+}
+inline void clear_bounds(PackedTile& tile, const ClearPixel& clear) {
+  std::fill(std::begin(tile.farthest), std::end(tile.farthest), clear.depth);
+  tile.farthest_of_all = clear.depth;
+}
+inline void clear_bounds(Tile&, const ClearPixel&) {}
+
 /// Fills the tile with the frame's clear values.
 template <class R>
-void clear(auto& tile, const Painting& painting) {
-  const FrameFormat& frame = painting.format;
-  const auto [z, c] = clear_pixel(frame);
-  const Mask<R> all = Lanes<R>::mask_of(~0u);
-  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) store(R(z), tile.depth + i);
-  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width)
-    tile.at(i).template store_color<R>(all, Color<R>(c), glm::bvec4(true));
-  if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
-  if constexpr (requires { tile.farthest; }) {
-    std::fill(std::begin(tile.farthest), std::end(tile.farthest), z);
-    tile.farthest_of_all = z;
+void clear(auto& tile, const FrameFormat& format) {
+  const ClearPixel cleared = clear_pixel(format);
+  clear_depths<R>(tile, cleared, 0, kTile * kTile);
+  clear_colors<R>(tile, cleared, 0, kTile * kTile);
+  clear_bounds(tile, cleared);
+  if (format.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, format.clear_stencil);
+}
+
+/// Writes the tile to the frame and clears it, a row of blocks at a time: clearing costs little while streamed stores
+/// wait for memory. By vectors where rows are whole ones, else by write_out(). One plane after the other: two streams
+/// of stores are slower.
+template <class R>
+void move_out(const Painting& painting, PackedTile& tile, Frame& frame) {
+  if (!has_whole_lanes<R>(frame, tile.x0)) {
+    write_out(tile, frame);
+    return clear<R>(tile, painting.format);
   }
+  constexpr int kOfRow = kBlock * kTile;  // pixels of a row of blocks
+  const ClearPixel cleared = clear_pixel(painting.format);
+  const auto row = [](const float* blocks, int x, int y) {
+    return Lanes<R>::load_row(blocks + block_offset(x, y) + y % kBlock * kBlock);
+  };
+  const auto* color = reinterpret_cast<const float*>(tile.color);
+  for (int y = 0, i = 0; y < kTile; y += kBlock, i += kOfRow) {
+    write_rows<R>(frame.color_rgba8, tile.x0, tile.y0, y, y + kBlock,
+                  [&](int x, int of) { return as_int(row(color, x, of)); });
+    clear_colors<R>(tile, cleared, i, i + kOfRow);
+  }
+  for (int y = 0, i = 0; y < kTile; y += kBlock, i += kOfRow) {
+    write_rows<R>(frame.depth_code, tile.x0, tile.y0, y, y + kBlock,
+                  [&](int x, int of) { return to_int(row(tile.depth, x, of)); });
+    clear_depths<R>(tile, cleared, i, i + kOfRow);
+  }
+  clear_bounds(tile, cleared);
 }
 
 /// Stage 12: mean_of_four() (resolve.h) of the samples' codes, into samples[0]. Its depths stay the first sample's.
@@ -225,36 +258,57 @@ void resolve_samples(PackedTile (&samples)[4]) {
   }
 }
 
-/// Stages 5 to 12 of tile `number`, from its clear values into the frame.
+/// Gives tile `number` its place in the frame.
+void place(const Painting& painting, int number, auto& tile) {
+  tile.x0 = number % painting.columns * kTile, tile.y0 = number / painting.columns * kTile;
+}
+
+/// Stages 5 to 12 of tile `number`, from its clear values on, in memory. In frames of codes the first tile of memory is
+/// clear, as write_tile() leaves it.
 template <class R>
-void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame& frame) {
-  const int x0 = number % painting.columns * kTile, y0 = number / painting.columns * kTile;
+void paint_tile(const Painting& painting, int number, TileMemory& memory) {
+  const auto begin = [&](auto& tile) {
+    place(painting, number, tile);
+    clear<R>(tile, painting.format);
+  };
   const std::vector<PaintRun>& runs = memory.runs;
   find_runs(painting, static_cast<std::size_t>(number), memory.runs);
-  const auto begin = [&](auto& tile) {
-    tile.x0 = x0, tile.y0 = y0;
-    clear<R>(tile, painting);
-  };
+  PackedTile& first = memory.packed[0];
+  place(painting, number, first);
   if (painting.format.color != ColorFormat::rgba8) {
     begin(memory.tile);
     for (const PaintRun& run : runs) paint_run<R>(painting, run, memory.tile);
-    return write_out(memory.tile, frame);
-  }
-  if (runs.empty() && clear_out<R>(painting, x0, y0, frame)) return;
-  PackedTile& first = memory.packed[0];
-  if (painting.samples.size() == 1 || runs.empty()) {
-    begin(first);
+  } else if (painting.samples.size() == 1) {
     std::size_t i = 0;
     if constexpr (kHasKernels<R>) i = paint_first_runs<R>(painting, runs, first);
-    for (; i < runs.size(); ++i) {
-      paint_next_run<R, 1>(painting, runs[i], &first);
-    }
-  } else {
-    for (PackedTile& tile : memory.packed) begin(tile);
+    for (; i < runs.size(); ++i) paint_next_run<R, 1>(painting, runs[i], &first);
+  } else if (!runs.empty()) {
+    for (PackedTile& tile : std::span(memory.packed).subspan(1)) begin(tile);
     for (const PaintRun& run : runs) paint_next_run<R, 4>(painting, run, memory.packed);
     resolve_samples<R>(memory.packed);
   }
-  copy_out<R>(first, frame);
+}
+
+/// Writes the tile of the last paint_tile() to the frame. Lanes<R>::end_of_stream() makes it visible to other threads.
+template <class R>
+void write_tile(const Painting& painting, TileMemory& memory, Frame& frame) {
+  if (painting.format.color != ColorFormat::rgba8) return write_out(memory.tile, frame);
+  PackedTile& first = memory.packed[0];
+  if (memory.runs.empty() && clear_out<R>(painting, first.x0, first.y0, frame)) return;
+  move_out<R>(painting, first, frame);
+}
+
+/// Stages 5 to 12 of the tiles that the counter deals out, from their clear values into the frame.
+template <class R>
+void paint_tiles(const Painting& painting, TileCounter& tiles, TileMemory& memory, Frame& frame) {
+  clear<R>(memory.packed[0], painting.format);
+  for (TileCounter::Range of = tiles.claim(); of.begin < of.end; of = tiles.claim()) {
+    for (int tile = of.begin; tile < of.end; ++tile) {
+      paint_tile<R>(painting, tile, memory);
+      write_tile<R>(painting, memory, frame);
+    }
+  }
+  Lanes<R>::end_of_stream();
 }
 
 }  // namespace plumbline::pipeline

@@ -266,11 +266,9 @@ void Painter::Memory::run_tiles(Frame& to) {
   std::size_t runs = 0;
   for (const Chunk& chunk : painting.chunks) runs += chunk.draws.size();
   for (const auto& memory : tiles) memory->runs.reserve(runs);
-  const int count = painting.columns * painting.rows;
-  std::atomic<int> next{0};
-  each(static_cast<std::size_t>(threads), [&](std::size_t worker) {
-    for (int tile = next++; tile < count; tile = next++) target.tile(painting, tile, *tiles[worker], to);
-  });
+  TileCounter counter(painting.columns * painting.rows, threads);
+  each(static_cast<std::size_t>(threads),
+       [&](std::size_t worker) { target.tiles(painting, counter, *tiles[worker], to); });
 }
 
 void Painter::Memory::draw_pass(const Scene& scene, Frame& to) {

@@ -24,8 +24,8 @@ struct SimdTarget {
   /// Stages 1, 2 and 4 of vertices [from, to) of a draw; returns the OR of their outcodes.
   std::uint8_t (*vertices)(const VertexWork& work, std::size_t from, std::size_t to);
   CullTriangles cull;
-  /// Stages 5 to 12 of tile `number` (counted row by row), from its clear values into `frame`.
-  void (*tile)(const Painting& painting, int number, TileMemory& memory, Frame& frame);
+  /// Stages 5 to 12 of the tiles that the counter deals out, from their clear values into `frame`.
+  void (*tiles)(const Painting& painting, TileCounter& tiles, TileMemory& memory, Frame& frame);
 };
 /// Targets that this machine can run, the widest last. Static memory.
 std::span<const SimdTarget> simd_targets();

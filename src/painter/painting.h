@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -125,6 +126,30 @@ struct Painting {
   }
   /// Depth code that a tile is cleared to; for depth formats with codes.
   double clear_code() const { return depth_code(format.clear_depth, formats.depth_scale); }
+};
+
+/// Counter that deals out a frame's tiles, numbered row by row, to its threads. A claim is a share of the tiles left,
+/// down to one tile: few claims, for an atomic operation waits until the thread's streamed stores are in memory, and
+/// threads that end at about the same time.
+class TileCounter {
+ public:
+  TileCounter(int tiles, int threads) : tiles_(tiles), per_claim_(4 * threads) {}
+
+  struct Range {
+    int begin, end;
+  };
+  /// Tiles for the calling thread; none where all are dealt out.
+  Range claim() {
+    int begin = next_, end = 0;
+    do {
+      end = begin + (tiles_ - begin + per_claim_ - 1) / per_claim_;
+    } while (!next_.compare_exchange_weak(begin, end));
+    return {begin, end};
+  }
+
+ private:
+  const int tiles_, per_claim_;
+  std::atomic<int> next_{0};
 };
 
 /// Working memory of one thread.

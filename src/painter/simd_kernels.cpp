@@ -16,6 +16,6 @@ namespace plumbline::pipeline {
 extern constinit const SimdTarget PLUMBLINE_NAME(kSimd_, PLUMBLINE_TARGET);
 constinit const SimdTarget PLUMBLINE_NAME(kSimd_, PLUMBLINE_TARGET) = {
     PLUMBLINE_TEXT_OF(PLUMBLINE_TARGET), paint_vertices<PLUMBLINE_TARGET::Simd>, cull_triangles<PLUMBLINE_TARGET::Simd>,
-    paint_tile<PLUMBLINE_TARGET::Simd>};
+    paint_tiles<PLUMBLINE_TARGET::Simd>};
 
 }  // namespace plumbline::pipeline

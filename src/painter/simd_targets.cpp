@@ -25,7 +25,7 @@ bool has_f16c() {
 // CMakeLists.txt): a virtual machine may hide some.
 std::span<const SimdTarget> simd_targets() {
   static const std::array<SimdTarget, 4> kTargets = {
-      {{"float", paint_vertices<float>, cull_triangles<float>, paint_tile<float>},
+      {{"float", paint_vertices<float>, cull_triangles<float>, paint_tiles<float>},
        kSimd_sse4,
        kSimd_avx2,
        kSimd_avx512}};

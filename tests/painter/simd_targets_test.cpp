@@ -75,7 +75,8 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
   painting.draws = draws;
   Frame frame(format);
   const auto memory = std::make_unique<TileMemory>();
-  for (std::size_t t = 0; t < tiles; ++t) target.tile(painting, static_cast<int>(t), *memory, frame);
+  TileCounter counter(static_cast<int>(tiles), 1);
+  target.tiles(painting, counter, *memory, frame);
   return frame;
 }
 

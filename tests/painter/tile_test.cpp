@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
+#include "painter/painting.h"
+
 namespace plumbline::pipeline {
 namespace {
 
@@ -52,6 +56,39 @@ TEST(PainterTile, WriteOutPutsEachPixelInItsPlace) {
       }
     }
   }
+}
+
+TEST(TileCounter, DealsOutEachTileOnceInFewClaims) {
+  for (const int threads : {1, 2, 7, 256}) {
+    for (const int count : {0, 1, 15, 256, 4096}) {
+      TileCounter counter(count, threads);
+      int next = 0, claims = 0;
+      for (TileCounter::Range of = counter.claim(); of.begin < of.end; of = counter.claim(), ++claims) {
+        EXPECT_EQ(of.begin, next);
+        EXPECT_LE(of.end - of.begin, count / (4 * threads) + 1);
+        next = of.end;
+      }
+      EXPECT_EQ(next, count);
+      // Down to one tile each after 4 threads ln(count / (4 threads)) claims.
+      if (threads == 1 && count == 4096) EXPECT_LT(claims, 40);
+    }
+  }
+}
+
+TEST(TileCounter, ThreadsShareAllTiles) {
+  constexpr int kCount = 100'000;
+  TileCounter counter(kCount, 4);
+  std::vector<std::atomic<int>> times(kCount);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] {
+      for (TileCounter::Range of = counter.claim(); of.begin < of.end; of = counter.claim()) {
+        for (int tile = of.begin; tile < of.end; ++tile) ++times[static_cast<std::size_t>(tile)];
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const std::atomic<int>& of_tile : times) ASSERT_EQ(of_tile, 1);
 }
 
 }  // namespace
