@@ -285,7 +285,7 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   const bool counted = std::ranges::any_of(hits, [](const PixelHit& h) { return h.hit.stencil != nullptr; });
   const bool all_count = counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; });
   // A surface drawn after a winner that does not write depth is compared with surfaces that the winner hides.
-  const auto after = [&](const Surface& s) { return !won_writes && s.order > won.order; };
+  const auto after = [&](const Surface& s) { return s.order > won.order; };
   if (all_count || !won_writes) {  // else no pair counts
     share += meetings(scene.frame, others,
                       [&](const Surface& a, const Surface& b) { return all_count || after(a) || after(b); });

@@ -88,6 +88,16 @@ TEST(AmbiguousByEdges, CountsTheCentresThatASideRunsThrough) {
   EXPECT_NEAR(predicted(scene), 40, 1);
 }
 
+TEST(AmbiguousByEdges, CountsASideOutsideTheWindowWhoseBandReachesIn) {
+  // A triangle over the whole window, one side of which is 0.001 pixels left of it; delta is larger.
+  const Scene scene = flat_scene({{glm::vec2(-0.001f, -1e5f), {1e5f, 32}, {-0.001f, 1e5f}}});
+  const Projected projected = project(scene);
+  const double reach = displacement(projected, projected.triangles[0], {-32, 0, 1}, 1) - 0.001;
+  ASSERT_GT(reach, 0.001);
+  ASSERT_LT(reach, 0.4);
+  EXPECT_NEAR(predicted(scene), 64 * reach, 0.05 * 64 * reach);
+}
+
 TEST(AmbiguousByEdges, LeavesHiddenSidesOut) {
   const Scene scene = flat_scene({kLower, {glm::vec2(1, 1), {63, 2}, {2, 63}}}, 0.5f);
   Scene hidden = scene;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "check/bounds/mean_bounds.h"
+#include "check/bounds/texture_bounds.h"
 #include "reference/exact/barycentric.h"
 #include "tests/check/fixtures.h"
 #include "tests/float_depth.h"
@@ -304,6 +305,10 @@ TEST(Bounds, ARoundingBelowNormalNumbersIsAbsolute) {
   EXPECT_GE(ours(0x1p-140), 0x1p-149);
   EXPECT_LT(ours(0x1p-140), 0x1.01p-149);
   EXPECT_GE(mesas(0x1p-140), 0x1p-125);
+  const Vec4<double> color(0x1p-70), none(0);
+  const Environed product = environ_error(TextureFormat::rgba, {}, color, none, color, none, {1});
+  EXPECT_EQ(product.color.r, 0x1p-140);
+  EXPECT_GE(product.error.r, kGradualUnderflow);
 }
 
 // On the edge from corner 0 to corner 2, corner 1's share is 0, and what double makes of it some 2^-52.

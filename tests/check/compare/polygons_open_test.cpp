@@ -124,6 +124,7 @@ TEST_F(OpenPolygons, ALineEndsOnAPlaneByItsCornerAlone) {
     EXPECT_TRUE(passes(m)) << off;
     EXPECT_EQ(m.ambiguous, 1u) << off;
     EXPECT_TRUE(fails(ending_in(on_line(0.5, !is_cut)))) << "away from the plane";
+    EXPECT_TRUE(fails(ending_in(on_line(0, !is_cut)))) << "in the other end";
     ClipVertex<double> end = on_line(1, !is_cut);
     end.p_clip.y += 1e-5;
     EXPECT_TRUE(fails(ending_in(end))) << "off the line";

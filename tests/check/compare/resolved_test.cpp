@@ -58,6 +58,7 @@ TEST_F(Resolved, IsTheReferencesWhereTheSamplesAre) {
   const Capture flushed = of({0, 0, 0, 0}, 0);
   EXPECT_TRUE(side_by_side(of({tiny, tiny, tiny, tiny}, tiny), flushed));
   EXPECT_TRUE(side_by_side(of({tiny, tiny, tiny, tiny}, tiny), of({tiny, tiny, tiny, tiny}, 0)));
+  EXPECT_TRUE(side_by_side(of({tiny, tiny, tiny, tiny}, tiny), of({tiny, tiny, tiny, 2 * tiny}, 0)));
   EXPECT_FALSE(side_by_side(of({normal, normal, normal, normal}, normal), of({normal, normal, normal, normal}, 0)));
   EXPECT_FALSE(side_by_side(of({tiny, tiny, tiny, tiny}, 32 * normal), flushed));
 }
