@@ -16,6 +16,17 @@ namespace {
 using Run = std::span<const WindowTriangle<double>>;
 using Colors = std::array<Vec4<double>, 3>;
 
+// Number of corners by which another triangle is turned to fit `t` best: a renderer may begin a triangle at any of its
+// corners, a line at its first alone. apart(turn): how ill it fits; of equal ones the least turn counts.
+template <class Apart>
+std::size_t best_turn(const WindowTriangle<double>& t, Apart apart) {
+  std::size_t best = 0;
+  for (const std::size_t turn : {std::size_t{1}, std::size_t{2}}) {
+    if (t.corners == 3 && apart(turn) < apart(best)) best = turn;
+  }
+  return best;
+}
+
 Colors colors_of(const WindowTriangle<double>& t) { return {t.v[0].color, t.v[1].color, t.v[2].color}; }
 
 // Compares a candidate's run of records, the first of them number `first`, with the reference's run of the same
@@ -112,12 +123,9 @@ class RunComparison {
       }
       return std::pair(places, shades);
     };
-    std::size_t best = 0;
-    for (const std::size_t turn : {std::size_t{1}, std::size_t{2}}) {
-      if (a.corners == 3 && apart(turn) < apart(best)) best = turn;
-    }
-    std::rotate(b.v.begin(), b.v.begin() + static_cast<std::ptrdiff_t>(best), b.v.end());
-    std::rotate(colors.begin(), colors.begin() + static_cast<std::ptrdiff_t>(best), colors.end());
+    const std::size_t turn = best_turn(a, apart);
+    std::rotate(b.v.begin(), b.v.begin() + static_cast<std::ptrdiff_t>(turn), b.v.end());
+    std::rotate(colors.begin(), colors.begin() + static_cast<std::ptrdiff_t>(turn), colors.end());
     compare(a, b, colors, number);
   }
 
@@ -191,14 +199,11 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
     if (a.corners == 3) meter.value(a.front == b.front ? 0 : kInfinite, 0, at("front"), a.front, b.front);
     meter.value(a.corners == b.corners ? 0 : kInfinite, 0, at("corners"), a.corners, b.corners);
     meter.value(difference(a.width, b.width), 0, at("width"), a.width, b.width);
-    // A triangle may begin at any of its corners; the turn that fits best counts.
-    const auto apart = [&](std::size_t turn) {
+    const std::size_t turn = best_turn(a, [&](std::size_t by) {
       int n = 0;
-      for (std::size_t k = 0; k < 3; ++k) n += a.v[k].p_win != b.v[(k + turn) % 3].p_win ? 1 : 0;
+      for (std::size_t k = 0; k < 3; ++k) n += a.v[k].p_win != b.v[(k + by) % 3].p_win ? 1 : 0;
       return n;
-    };
-    const int n[] = {apart(0), apart(1), apart(2)};
-    const std::size_t turn = n[0] <= n[1] && n[0] <= n[2] ? 0 : n[1] <= n[2] ? 1 : 2;
+    });
     for (std::size_t k = 0; k < 3; ++k) {
       const WindowVertex<double>&v = a.v[k], &w = b.v[(k + turn) % 3];
       for (int c = 0; c < 3; ++c) {
