@@ -28,20 +28,24 @@ glm::dvec4 middle(const ColorInterval& color);
 class FrameColor {
  public:
   /// A pixel of the clear colour. Where renderers blend in codes, each factor and each product may be half a code off.
-  explicit FrameColor(const FrameFormat& frame, Conventions::Blending blending = Conventions::Blending::in_float);
+  /// `rounding`: of colours to the codes that are stored and read again.
+  explicit FrameColor(const FrameFormat& frame, Conventions::Blending blending = Conventions::Blending::in_float,
+                      Conventions::Rounding rounding = Conventions::Rounding::nearest);
 
   /// Blends a fragment's colour with the stored one, or combines their codes by the logic op, and stores the channels
   /// that the mask leaves, in the frame's format.
   void write(const Merge& state, const ColorInterval& color);
 
-  /// The colour that was last written to each channel, clamped to the format's range, not rounded to codes (a logic
-  /// op's result is a code; rgba32f: rounded to float). 1 stands for the largest code.
+  /// The colour that was last written to each channel, clamped to the format's range, not rounded to codes (of a logic
+  /// op's code, the middle of the colours that become the code; rgba32f: rounded to float). 1 stands for the largest
+  /// code.
   ColorInterval written() const;
 
  private:
   double unit_;  // the largest code; 1 for rgba32f, which is neither clamped nor rounded to codes
   bool codes_;
   bool blends_codes_;
+  Conventions::Rounding rounding_;
   ColorInterval written_, stored_;  // times unit_
 };
 

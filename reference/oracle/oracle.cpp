@@ -18,10 +18,13 @@ namespace plumbline::math {
 
 namespace {
 
-glm::vec4 to_format(ColorFormat format, glm::vec4 color) {
-  if (format == ColorFormat::rgba32f) return color;
-  const auto scale = static_cast<float>(color_scale(format));
-  return glm::round(glm::clamp(color, 0.0f, 1.0f) * scale) / scale;
+glm::vec4 to_format(ColorFormat format, const glm::dvec4& color, Conventions::Rounding rounding) {
+  if (format == ColorFormat::rgba32f) return glm::vec4(color);
+  const double scale = color_scale(format);
+  glm::vec4 out;
+  for (int c = 0; c < 4; ++c)
+    out[c] = static_cast<float>(rounded(rounding, std::clamp(color[c], 0.0, 1.0) * scale) / scale);
+  return out;
 }
 
 /// The candidates' primitives by pixel; at() sorts a pixel's in ascending order and removes duplicates.
@@ -51,7 +54,7 @@ Planes empty_planes(const FrameFormat& frame) {
   planes.id_sum = {frame.width, frame.height, 0};
   planes.id = {frame.width, frame.height, kBackground};
   planes.shaded = {frame.width, frame.height, frame.clear_color};
-  planes.color = {frame.width, frame.height, to_format(frame.color, frame.clear_color)};
+  planes.color = {frame.width, frame.height, to_format(frame.color, glm::dvec4(frame.clear_color), {})};
   planes.depth = {frame.width, frame.height, in_format(frame.depth, frame.clear_depth)};
   if (frame.stencil != StencilFormat::none) planes.stencil = {frame.width, frame.height, frame.clear_stencil};
   return planes;
@@ -131,7 +134,7 @@ bool tested(const PixelHit& h, double z, Planes& planes, int x, int y) {
 void draw_inside(const Scene& scene, const Projected& projected, std::span<PixelHit> hits, int x, int y,
                  Planes& planes) {
   const FrameFormat& frame = scene.frame;
-  FrameColor color(frame);
+  FrameColor color(frame, projected.conventions.blending, projected.conventions.color_rounding);
   for (PixelHit& h : hits) {
     if (!h.inside) continue;
     ++planes.count(x, y);
@@ -145,7 +148,7 @@ void draw_inside(const Scene& scene, const Projected& projected, std::span<Pixel
     planes.shaded(x, y) = glm::vec4(h.hit.color);
     color.write(draw_of(scene, projected, h.hit).merge, around(h.hit.color, 0));
   }
-  planes.color(x, y) = to_format(frame.color, glm::vec4(middle(color.written())));
+  planes.color(x, y) = to_format(frame.color, middle(color.written()), projected.conventions.color_rounding);
 }
 
 void add_fragments(const Projected& projected, std::span<const PixelHit> hits, int x, int y, StageSet wanted,
@@ -183,7 +186,7 @@ void color_answers(const Scene& scene, const Projected& projected, std::span<Pix
 /// Sets the legal interval of the frame's colour at a pixel: unbounded unless it is certain which fragments are drawn.
 void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, int x, int y,
                  Legal& legal) {
-  FrameColor color(scene.frame, projected.conventions.blending);
+  FrameColor color(scene.frame, projected.conventions.blending, projected.conventions.color_rounding);
   LegalFold fold(scene.frame);
   bool certain = true;
   for (const Hit& hit : hits) {

@@ -10,6 +10,7 @@
 #include "capture/fragment_outcomes.h"
 #include "check/bounds/open_pixels.h"
 #include "check/compare/window_area.h"
+#include "reference/arithmetic/frame_color.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -228,6 +229,30 @@ Capture test_in_float(Renderer& referee, const Scene& scene, const Capture& in) 
   return out;
 }
 
+// ---- merge
+
+// The frame's colours, whose fragments blend with codes that are rounded as declared.
+Capture merge_rounded(Renderer& referee, const Scene& scene, const Capture& in, const C& conventions) {
+  Capture out = referee.run_stage(scene, Stage::merge, in);
+  const Records<double>& r = in.records;
+  const DrawIndex draws(scene);
+  Plane<math::FrameColor> colors(scene.frame.width, scene.frame.height,
+                                 math::FrameColor(scene.frame, conventions.blending, conventions.color_rounding));
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    const Covered& c = r.covered[i];
+    const Draw* draw = r.drawn[i].drawn ? draws.draw(r.triangles.at(c.triangle).primitive) : nullptr;
+    if (draw != nullptr) colors(c.x, c.y).write(draw->merge, math::around(r.shaded[i].color, 0));
+  }
+  out.legal.color_lo = out.legal.color_hi = {colors.width(), colors.height()};
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const math::ColorInterval color = colors.values()[i].written();
+    out.planes.color.values()[i] = glm::vec4(math::middle(color));
+    out.legal.color_lo.values()[i] = math::low(color);
+    out.legal.color_hi.values()[i] = math::high(color);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool has_other_volume(const Conventions& conventions) { return conventions.clip_depth != C::ClipDepth::minus_w_to_w; }
@@ -267,6 +292,14 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
       const bool has_alphas = r.depth.size() == r.covered.size() && r.shaded.size() == r.covered.size();
       if (!tests_alpha(scene) || !has_alphas || conventions.alpha_test != C::AlphaTest::in_float) break;
       return test_in_float(referee, scene, in);
+    }
+    case Stage::merge: {
+      const bool is_read_again = scene.frame.color != ColorFormat::rgba32f && !colors_replace(scene);
+      const bool has_drawn = r.drawn.size() == r.covered.size() && r.shaded.size() == r.covered.size();
+      const bool is_opengls =
+          conventions.color_rounding == C::Rounding::nearest && conventions.blending == C::Blending::in_float;
+      if (!is_read_again || !has_drawn || is_opengls) break;
+      return merge_rounded(referee, scene, in, conventions);
     }
     default: break;
   }

@@ -25,7 +25,8 @@ bool knows_ties(const Scene& scene, const Conventions& conventions);
 /// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between which
 ///   the renderer interpolates; where attribute_corners are snapped, the renderer interpolates between snapped corners;
 ///   attributes and texture: by 1/w = 1 where interpolation is affine;
-/// - visibility: where alpha tests are in float, alphas are not rounded to codes.
+/// - visibility: where alpha tests are in float, alphas are not rounded to codes;
+/// - merge: colours that are blended or combined with stored codes meet codes rounded, and blended, as declared.
 /// Throws as run_stage() does.
 Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, const Capture& in,
                            const Conventions& conventions);

@@ -93,6 +93,32 @@ TEST_F(ByConventions, ARuleIsKnownWhereItsGridIs) {
   EXPECT_FALSE(knows_ties(scene, by_rule(C::TieRule::left_top)));
 }
 
+// A quarter of red over 34.53 codes of blue, which are stored as 35 or, truncated, as 34.
+TEST_F(ByConventions, StoredColorsAreRoundedAsDeclaredBeforeTheNextBlends) {
+  add_square();
+  constexpr BlendTerm kOver{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
+  scene.draws[0].merge.blend = Blend{kOver, kOver, glm::vec4(0)};
+  scene.draws[0].depth_func = DepthFunc::always;
+  Records<double>& r = candidate.records;
+  r.covered = {{0, 4, 2}, {1, 4, 2}};
+  r.depth = {0.5, 0.5};
+  r.shaded = {{glm::dvec4(0, 0, 0.1354, 1)}, {glm::dvec4(1, 0, 0, 0.25)}};
+  r.drawn = {{true}, {true}};
+  const auto blue = [&](C::Rounding rounding, Capture& made) {
+    C c;
+    c.color_rounding = rounding;
+    made = run_by_conventions(*exact, scene, Stage::merge, candidate, c);
+    return 255.0 * static_cast<double>(made.planes.color(4, 2).b);
+  };
+  Capture made;
+  EXPECT_NEAR(blue(C::Rounding::nearest, made), 0.75 * 35, 1e-4);
+  EXPECT_NEAR(blue(C::Rounding::down, made), 0.75 * 34, 1e-4);
+  EXPECT_NEAR(255.0 * static_cast<double>(made.legal.color_hi(4, 2).b), 0.75 * 34, 1e-4);
+  EXPECT_EQ(made.planes.color(0, 0), scene.frame.clear_color);
+  r.drawn = {{true}, {false}};
+  EXPECT_NEAR(blue(C::Rounding::down, made), 34.527, 1e-3) << "what is written last is not rounded";
+}
+
 // A fragment that is wrong by the rule is found, unless rounding decides where a corner is snapped to.
 TEST_F(ByConventions, AWrongRuleIsFound) {
   add_square();

@@ -1,6 +1,7 @@
 // A pixel of the frame in intervals: by hand, and against the pipeline's blending of random fragments.
 #include "reference/arithmetic/frame_color.h"
 
+#include <array>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -43,6 +44,40 @@ TEST(FrameColor, HalvesOnTheWayGoEitherWay) {
   color.write(blending(BlendFactor::zero, BlendFactor::one), around(glm::dvec4(1), 0));
   EXPECT_EQ(color.written()[0].lo, 10 / 255.0);
   EXPECT_EQ(color.written()[0].hi, 11 / 255.0);
+}
+
+TEST(FrameColor, WhatIsReadIsRoundedAsDeclared) {
+  using enum Conventions::Rounding;
+  const auto read = [](Conventions::Rounding rounding, double code) {
+    FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(0)), Conventions::Blending::in_float, rounding);
+    color.write({}, around(glm::dvec4(code / 255), 0));
+    EXPECT_DOUBLE_EQ(color.written()[0].lo, code / 255) << "what is written last is not rounded";
+    color.write(blending(BlendFactor::zero, BlendFactor::one), around(glm::dvec4(1), 0));
+    return std::array{255 * color.written()[0].lo, 255 * color.written()[0].hi};
+  };
+  using Codes = std::array<double, 2>;
+  EXPECT_EQ(read(down, 34.75), (Codes{34, 34}));
+  EXPECT_EQ(read(nearest, 34.75), (Codes{35, 35}));
+  EXPECT_EQ(read(up, 34.25), (Codes{35, 35}));
+  EXPECT_EQ(read(nearest, 34.25), (Codes{34, 34}));
+  EXPECT_EQ(read(down, 34), (Codes{33, 34})) << "whole but for rounding";
+  EXPECT_EQ(read(up, 34), (Codes{34, 35}));
+  EXPECT_EQ(read(nearest, 34), (Codes{34, 34}));
+  EXPECT_EQ(read(up, 255), (Codes{255, 255}));
+  EXPECT_EQ(read(down, 0), (Codes{0, 0}));
+}
+
+TEST(FrameColor, ALogicOpTakesCodesRoundedAsDeclared) {
+  const auto inverted = [](Conventions::Rounding rounding) {
+    FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(0)), Conventions::Blending::in_float, rounding);
+    Merge state;
+    state.logic_op = LogicOp::copy_inverted;
+    color.write(state, around(glm::dvec4(91.75 / 255), 0));
+    return 255 * color.written()[0].lo;
+  };
+  EXPECT_NEAR(inverted(Conventions::Rounding::nearest), 255 - 92, 1e-9);
+  EXPECT_NEAR(inverted(Conventions::Rounding::down), 255 - 91 + 0.5, 1e-9) << "the middle of what becomes the code";
+  EXPECT_NEAR(inverted(Conventions::Rounding::up), 255 - 92 - 0.5, 1e-9);
 }
 
 TEST(FrameColor, MaskedChannelsStay) {
