@@ -350,7 +350,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
   MadeStages made;
   if (drew && referee != nullptr) made = make_stages(*seen, *mine, *referee, conventions);
   if (const auto filtered = made.find(Stage::texture); filtered != made.end()) {
-    mine->legal.texels = std::move(filtered->second.legal.texels);
+    mine->legal.texels = filtered->second.legal.texels;
   }
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (!failures[i].empty()) {
