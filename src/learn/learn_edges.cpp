@@ -87,14 +87,15 @@ std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Round
   for (const Edge& edge : edges) {
     const auto at = snapped(edge.offset, bits, rounding);
     if (!at) continue;
-    double sample = *at + edge.rise * (3 - lost_rows - static_cast<double>(edge.count) / kLong);
-    if (edge.rise == 1 && sample > 0.999) --sample;  // lost_rows was not known to be 1
+    const double sample = *at + edge.rise * (3 - lost_rows - static_cast<double>(edge.count) / kLong);
     least = std::min(least, sample), most = std::max(most, sample), sum += sample;
     ++n;
   }
   // Scatter of ties, of an edge function's rounding, and of corners on a grid that is too fine to be measured.
   if (n == 0 || most - least > 3.5 * edges.front().rise / kLong) return std::nullopt;
-  return Grid{bits, rounding, sum / static_cast<double>(n), n, edges.size(), most - least};
+  double sample = sum / static_cast<double>(n);
+  if (edges.front().rise == 1 && sample > 0.999) --sample;  // of all edges: lost_rows was not known to be 1
+  return Grid{bits, rounding, sample, n, edges.size(), most - least};
 }
 
 // The grid by which the sample's place scatters least; the finest of equally good ones.

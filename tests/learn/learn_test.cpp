@@ -1,59 +1,18 @@
 // Conventions found from pictures and depths: of our renderer, of faults that are conventions, and of nonsense.
-#include "learn/learn.h"
-
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include <fmt/ranges.h>
-#include <gtest/gtest.h>
 
 #include "capture/files/conventions_file.h"
 #include "faults/faults.h"
-#include "renderers/pipeline_renderer.h"
+#include "tests/learn/altered_renderers.h"
 
 namespace plumbline::learn {
 namespace {
 
-using C = Conventions;
-using Alter = std::function<void(Capture&)>;
-
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
-
-// Another renderer's pictures, altered.
-class Altered : public Renderer {
- public:
-  Altered(std::unique_ptr<Renderer> renderer, Alter alter) : renderer_(std::move(renderer)), alter_(std::move(alter)) {}
-  RendererInfo info() const override { return renderer_->info(); }
-  Capture capture(const Scene& scene, const Request& request) override {
-    Capture out = renderer_->capture(scene, request);
-    alter_(out);
-    return out;
-  }
-
- private:
-  std::unique_ptr<Renderer> renderer_;
-  Alter alter_;
-};
-
-// Ours, of a scene that is altered before it is drawn, and whose picture is altered then.
-class OfAlteredScenes : public Renderer {
- public:
-  RendererInfo info() const override { return renderer_->info(); }
-  Capture capture(const Scene& scene, const Request& request) override {
-    Scene other = scene;
-    before(other);
-    Capture out = renderer_->capture(other, request);
-    after(scene, out);
-    return out;
-  }
-  std::function<void(Scene&)> before = [](Scene&) {};
-  std::function<void(const Scene&, Capture&)> after = [](const Scene&, Capture&) {};
-
- private:
-  std::unique_ptr<Renderer> renderer_ = pipeline::make_pipeline();
-};
 
 std::unique_ptr<Renderer> faulted(const std::string& name) {
   for (const faults::Fault& fault : faults::all()) {
@@ -61,15 +20,6 @@ std::unique_ptr<Renderer> faulted(const std::string& name) {
   }
   throw std::invalid_argument(name);
 }
-
-// Plumbline's own.
-C ours() {
-  C out;
-  out.tie_rule = C::TieRule::left_bottom;
-  return out;
-}
-
-C learned(std::unique_ptr<Renderer> renderer) { return learn(*renderer).conventions; }
 
 TEST(Learn, OurRendererDrawsByTheDialect) {
   const auto renderer = pipeline::make_pipeline();
@@ -284,25 +234,6 @@ TEST(Learn, ARefusedProbeLeavesItsConventionsOpen) {
 }
 
 // A tolerance of edge functions moves edges of one side as a sample off the centre would, and those of the other back.
-TEST(Learn, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
-  constexpr double kReach = 2.0 / 256;
-  const auto plain = pipeline::make_pipeline();
-  OfAlteredScenes renderer;
-  renderer.after = [&](const Scene& scene, Capture& c) {
-    if (scene.name != "probe/grid_x" && scene.name != "probe/grid_y") return;
-    for (const glm::dvec2 by : {glm::dvec2(0, 1), {0, -1}, {1, 0}, {-1, 0}}) {
-      Scene moved = scene;
-      moved.frame.pass.shift += kReach * by;
-      const Plane<glm::vec4> color = plain->capture(moved, {}).planes.color;
-      for (std::size_t i = 0; i < color.size(); ++i)
-        c.planes.color.values()[i] = glm::max(c.planes.color.values()[i], color.values()[i]);
-    }
-  };
-  C expected = ours();
-  expected.unexplained = {"triangles have too many samples, as if their edges lay 0.0078 pixel farther out"};
-  EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected));
-}
-
 TEST(Learn, APlaneThatAloneCutsNothingIsAFinding) {
   OfAlteredScenes renderer;
   renderer.after = [](const Scene& scene, Capture& c) {

@@ -1,0 +1,61 @@
+// Our renderer, its scenes and pictures altered: what plumb learn asks.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "learn/learn.h"
+#include "renderers/pipeline_renderer.h"
+
+namespace plumbline::learn {
+
+using C = Conventions;
+using Alter = std::function<void(Capture&)>;
+
+// Another renderer's pictures, altered.
+class Altered : public Renderer {
+ public:
+  Altered(std::unique_ptr<Renderer> renderer, Alter alter) : renderer_(std::move(renderer)), alter_(std::move(alter)) {}
+  RendererInfo info() const override { return renderer_->info(); }
+  Capture capture(const Scene& scene, const Request& request) override {
+    Capture out = renderer_->capture(scene, request);
+    alter_(out);
+    return out;
+  }
+
+ private:
+  std::unique_ptr<Renderer> renderer_;
+  Alter alter_;
+};
+
+// Ours, of a scene that is altered before it is drawn, and whose picture is altered then.
+class OfAlteredScenes : public Renderer {
+ public:
+  RendererInfo info() const override { return renderer_->info(); }
+  Capture capture(const Scene& scene, const Request& request) override {
+    Scene other = scene;
+    before(other);
+    Capture out = renderer_->capture(other, request);
+    after(scene, out);
+    return out;
+  }
+  std::function<void(Scene&)> before = [](Scene&) {};
+  std::function<void(const Scene&, Capture&)> after = [](const Scene&, Capture&) {};
+
+ private:
+  std::unique_ptr<Renderer> renderer_ = pipeline::make_pipeline();
+};
+
+// Conventions of our renderer.
+inline C ours() {
+  C out;
+  out.tie_rule = C::TieRule::left_bottom;
+  return out;
+}
+
+inline C learned(std::unique_ptr<Renderer> renderer) { return learn(*renderer).conventions; }
+
+}  // namespace plumbline::learn

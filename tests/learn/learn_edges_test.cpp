@@ -1,0 +1,58 @@
+// Grids and edges that plumb learn finds.
+#include <algorithm>
+#include <cmath>
+
+#include "capture/files/conventions_file.h"
+#include "tests/learn/altered_renderers.h"
+
+namespace plumbline::learn {
+namespace {
+
+// Model space is the window. Positions may be rounded one way in x and another in y, which no convention is.
+TEST(LearnEdges, AGridOfWholePixelsIsFoundWithItsRounding) {
+  const auto learned_of = [](auto x, auto y) {
+    OfAlteredScenes renderer;
+    renderer.before = [=](Scene& scene) {
+      for (Mesh& mesh : scene.meshes) {
+        for (glm::vec3& p : mesh.positions) p.x = x(p.x), p.y = y(p.y);
+      }
+    };
+    return learn(renderer).conventions;
+  };
+  const auto down = [](float v) { return std::floor(v); };
+  const auto up = [](float v) { return std::ceil(v); };
+  const auto nearest = [](float v) { return std::nearbyint(v); };
+  const C floored = learned_of(down, down), raised = learned_of(up, up), rounded = learned_of(nearest, nearest);
+  for (const C& c : {floored, raised, rounded}) {
+    EXPECT_EQ(c.subpixel_bits, 0);
+    EXPECT_EQ(c.sample, glm::dvec2(0.5));
+  }
+  EXPECT_EQ(floored.subpixel_rounding, C::Rounding::down);
+  EXPECT_EQ(raised.subpixel_rounding, C::Rounding::up);
+  EXPECT_EQ(rounded.subpixel_rounding, C::Rounding::nearest);
+  const C mixed = learned_of(down, up);
+  EXPECT_TRUE(std::ranges::any_of(mixed.unexplained,
+                                  [](const std::string& says) { return says.find("one grid in x") != says.npos; }));
+}
+
+TEST(LearnEdges, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
+  constexpr double kReach = 2.0 / 256;
+  const auto plain = pipeline::make_pipeline();
+  OfAlteredScenes renderer;
+  renderer.after = [&](const Scene& scene, Capture& c) {
+    if (scene.name != "probe/grid_x" && scene.name != "probe/grid_y") return;
+    for (const glm::dvec2 by : {glm::dvec2(0, 1), {0, -1}, {1, 0}, {-1, 0}}) {
+      Scene moved = scene;
+      moved.frame.pass.shift += kReach * by;
+      const Plane<glm::vec4> color = plain->capture(moved, {}).planes.color;
+      for (std::size_t i = 0; i < color.size(); ++i)
+        c.planes.color.values()[i] = glm::max(c.planes.color.values()[i], color.values()[i]);
+    }
+  };
+  C expected = ours();
+  expected.unexplained = {"triangles have too many samples, as if their edges lay 0.0078 pixel farther out"};
+  EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected));
+}
+
+}  // namespace
+}  // namespace plumbline::learn
