@@ -107,6 +107,15 @@ double in_float(double v) {
 
 }  // namespace
 
+double to_whole(Conventions::Rounding rounding, double v) {
+  switch (rounding) {
+    case Conventions::Rounding::nearest: return std::nearbyint(v);
+    case Conventions::Rounding::down: return std::floor(v);
+    case Conventions::Rounding::up: return std::ceil(v);
+  }
+  return v;
+}
+
 ColorInterval around(const glm::dvec4& color, double bound) {
   ColorInterval out;
   for (std::size_t c = 0; c < 4; ++c) {
@@ -154,7 +163,7 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
   // and what they truncate is often whole but for that.
   const bool blends = state.blend && !state.logic_op, is_nearest = rounding_ == Conventions::Rounding::nearest;
   const double either_way = !blends ? unit_ * 0x1p-23 : is_nearest ? 0x1p-36 : unit_ * 0x1p-21;
-  const auto code = [&](double v) { return rounded(rounding_, std::clamp(v, 0.0, unit_)); };
+  const auto code = [&](double v) { return to_whole(rounding_, std::clamp(v, 0.0, unit_)); };
   const auto codes = [&](Interval v) -> Interval { return {code(v.lo - either_way), code(v.hi + either_way)}; };
   for (std::size_t c = 0; c < 4; ++c) {
     if (!state.color_mask[static_cast<int>(c)]) continue;

@@ -17,6 +17,9 @@ struct Interval {
 };
 using ColorInterval = std::array<Interval, 4>;
 
+/// `v` rounded to a whole number.
+double to_whole(Conventions::Rounding rounding, double v);
+
 /// color +- bound, per channel.
 ColorInterval around(const glm::dvec4& color, double bound);
 /// Lower and upper ends, rounded to the nearest float, and middle of each channel. Rounding is monotone: every float of

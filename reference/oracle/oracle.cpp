@@ -23,7 +23,7 @@ glm::vec4 to_format(ColorFormat format, const glm::dvec4& color, Conventions::Ro
   const double scale = color_scale(format);
   glm::vec4 out;
   for (int c = 0; c < 4; ++c)
-    out[c] = static_cast<float>(rounded(rounding, std::clamp(color[c], 0.0, 1.0) * scale) / scale);
+    out[c] = static_cast<float>(to_whole(rounding, std::clamp(color[c], 0.0, 1.0) * scale) / scale);
   return out;
 }
 

@@ -130,11 +130,10 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
   }
 }
 
-// The first different stage beside what the reference showed of it.
-std::optional<Finding> first_finding(const Scene& scene, const SceneVerdict& verdict, const Capture& mine,
-                                     std::span<const Reference> references, std::span<const Capture> theirs,
-                                     Explain explain) {
-  const Comparison* row = first_different(verdict);
+// A row beside what its reference showed of the stage; nothing where there is no row.
+std::optional<Finding> finding_beside(const Comparison* row, const Scene& scene, const Capture& mine,
+                                      std::span<const Reference> references, std::span<const Capture> theirs,
+                                      Explain explain) {
   if (row == nullptr) return std::nullopt;
   Finding out = finding_of(*row);
   for (std::size_t i = 0; i < theirs.size(); ++i) {
@@ -204,11 +203,15 @@ Pass look_at(const Scene& of_dialect, Renderer& candidate, std::span<const Refer
   }
   if (referee != nullptr && lacks_fragment_records(pass.repaired))
     look_at_worst(pass, {scene, *referee, explain, conventions, foreign}, candidate);
-  if (wrong.empty()) {
-    if (!pass.findings.empty()) return pass;
-    pass.first = first_finding(scene, pass.verdict, pass.repaired, references, drawn.references, explain);
-    return pass;
+  if (wrong.empty() && !pass.findings.empty()) return pass;
+  const bool by_steps =
+      foreign && std::ranges::all_of(wrong, [&](Stage s) { return differs_by_steps(pass.verdict, s); });
+  if (by_steps || wrong.empty()) {
+    const Comparison* row = by_steps ? first_beyond_steps(pass.verdict) : nullptr;
+    pass.first = finding_beside(row != nullptr ? row : first_different(pass.verdict), scene, pass.repaired, references,
+                                drawn.references, explain);
   }
+  if (wrong.empty()) return pass;
   try {
     repair(pass, {scene, *referee, explain, conventions, foreign}, candidate, wrong);
   } catch (const std::exception&) {  // exact cannot go on; what was found stands
@@ -315,8 +318,13 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
   } else if (!out.wrong.empty()) {
     out.first = out.wrong[0];  // which failed
   }
+  const Comparison* beyond = first_beyond_steps(out.verdict);
   if (headline) {
     out.first = headline;
+  } else if (is_foreign(candidate) && out.first && differs_by_steps(out.verdict, *out.first) && beyond != nullptr) {
+    out.first = beyond->stage;
+    if (std::ranges::find(out.wrong, beyond->stage) == out.wrong.end())
+      out.findings.insert(out.findings.begin(), first ? *first : finding_of(*beyond));
   } else if (by_tie_rule && out.first == Stage::coverage) {
     const auto other = std::ranges::find_if(out.wrong, [](Stage stage) { return stage != Stage::coverage; });
     out.first = other != out.wrong.end() ? std::optional(*other) : std::nullopt;

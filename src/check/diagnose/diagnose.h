@@ -30,7 +30,7 @@ struct Diagnosis {
   /// The first stage that is wrong by itself and explains pixels of the picture. Where none does: the stage of
   /// first_different(), but the first of `wrong` if that comes later and the former stage holds alone, or if no row is
   /// `different`. Never coverage of a foreign candidate that differs by legal fragments alone: then the first other of
-  /// `wrong`, or none.
+  /// `wrong`, or none. Not a stage of it that differs by steps (verdict.h) where another differs by more.
   std::optional<Stage> first;
   std::vector<Stage> wrong;  ///< every stage that is wrong by itself, in order
   /// One for each of `wrong`, those first that explain most pixels; of the first different stage where there is none.

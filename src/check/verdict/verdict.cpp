@@ -90,9 +90,35 @@ bool was_compared(const Comparison& row) {
   return !is_lack && !is_known_lack;
 }
 
+namespace {
+
 // Attributes over w, and 1/w, that are stepped in float along the edges and the rows of 1,024 pixels: a rounding for
 // each step of each [u]. The largest seen of right frames is 1,401, of skywind3000/mini3d.
 constexpr double kStepped = 4 * 1024;
+
+// Whether the rows of attributes, texture or shade that differ, if any, do so by no more than kStepped.
+bool are_within_steps(const SceneVerdict& verdict, Stage stage) {
+  if (stage != Stage::attributes && stage != Stage::texture && stage != Stage::shade) return false;
+  return std::ranges::all_of(verdict.comparisons, [&](const Comparison& c) {
+    return c.stage != stage || c.outcome != Outcome::different || c.measurement.max_difference <= kStepped;
+  });
+}
+
+}  // namespace
+
+bool differs_by_steps(const SceneVerdict& verdict, Stage stage) {
+  const auto differs = [&](const Comparison& c) { return c.stage == stage && c.outcome == Outcome::different; };
+  return std::ranges::any_of(verdict.comparisons, differs) && are_within_steps(verdict, stage);
+}
+
+const Comparison* first_beyond_steps(const SceneVerdict& verdict) {
+  const Comparison* first = nullptr;
+  for (const Comparison& c : verdict.comparisons) {
+    if (c.outcome != Outcome::different || (first != nullptr && c.stage >= first->stage)) continue;
+    if (!differs_by_steps(verdict, c.stage)) first = &c;
+  }
+  return first;
+}
 
 bool is_legal(const SceneVerdict& verdict, Stage stage) {
   bool legal = false, judged = false;
@@ -101,12 +127,7 @@ bool is_legal(const SceneVerdict& verdict, Stage stage) {
     if (is_failure(c.outcome)) return false;
     legal |= holds(c.outcome), judged |= was_compared(c);
   }
-  const bool makes_colors = stage == Stage::attributes || stage == Stage::texture || stage == Stage::shade;
-  const auto is_rounding = [&](const Comparison& c) {
-    return c.stage != stage || c.outcome != Outcome::different || c.measurement.max_difference <= kStepped;
-  };
-  return legal || (makes_colors && !judged && std::ranges::all_of(verdict.comparisons, is_rounding) &&
-                   is_legal(verdict, Stage::merge));
+  return legal || (!judged && are_within_steps(verdict, stage) && is_legal(verdict, Stage::merge));
 }
 
 bool holds_alone(const SceneVerdict& verdict, Stage stage) {

@@ -119,6 +119,11 @@ bool holds_alone(const SceneVerdict& verdict, Stage stage);
 /// them, too.
 const Comparison* first_different(const SceneVerdict& verdict);
 
+/// Whether attributes, texture or shade differ, and by no more than stepping along edges and rows in float makes.
+bool differs_by_steps(const SceneVerdict& verdict, Stage stage);
+/// The `different` row of the lowest stage that does not differ by steps alone; null if none.
+const Comparison* first_beyond_steps(const SceneVerdict& verdict);
+
 /// Whether a row says that the stage is legal, and none that it is not. Where no such row judges attributes, texture or
 /// shade, and they differ by no more than stepping in float makes, they are legal if merge is.
 bool is_legal(const SceneVerdict& verdict, Stage stage);

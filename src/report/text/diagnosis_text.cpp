@@ -42,7 +42,10 @@ std::string first_line(const check::Diagnosis& diagnosis) {
     if (c.stage == *diagnosis.first && c.outcome == Outcome::different) by.push_back(title_of(c.judge));
   }
   if (by.empty()) return fmt::format("{} (failed)", name_of(*diagnosis.first));
-  return fmt::format("{} (against {})", name_of(*diagnosis.first), fmt::join(by, "; "));
+  const bool is_legal = check::differs_by_steps(diagnosis.verdict, *diagnosis.first) &&
+                        check::is_legal(diagnosis.verdict, *diagnosis.first);
+  return fmt::format("{} (against {}){}", name_of(*diagnosis.first), fmt::join(by, "; "),
+                     is_legal ? "; legal: stepping in float makes as much, and the picture holds" : "");
 }
 
 std::string finding_text(const check::Finding& f) {

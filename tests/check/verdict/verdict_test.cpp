@@ -122,6 +122,24 @@ TEST(FirstDifferent, IsTheStageThatIsWrongAloneWhereThatOfThePlanesHolds) {
   EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "no stage is wrong alone";
 }
 
+TEST(DiffersBySteps, UpToARoundingForEachStep) {
+  const JudgeId alone("exact", Kind::per_stage);
+  const auto row = [&](Stage stage, double u) { return judged("s", alone, stage, measured(u > 0 ? 1 : 0, 0, 0, u)); };
+  SceneVerdict verdict;
+  verdict.comparisons = {row(Stage::attributes, 4096), row(Stage::shade, 0), row(Stage::merge, 2)};
+  EXPECT_TRUE(differs_by_steps(verdict, Stage::attributes));
+  EXPECT_FALSE(differs_by_steps(verdict, Stage::shade)) << "equal";
+  EXPECT_FALSE(differs_by_steps(verdict, Stage::merge)) << "codes are not stepped";
+  EXPECT_EQ(first_beyond_steps(verdict), &verdict.comparisons[2]);
+  verdict.comparisons[0] = row(Stage::attributes, 4097);
+  EXPECT_FALSE(differs_by_steps(verdict, Stage::attributes));
+  EXPECT_EQ(first_beyond_steps(verdict), &verdict.comparisons[0]);
+  verdict.comparisons[0] = row(Stage::attributes, std::nan(""));
+  EXPECT_FALSE(differs_by_steps(verdict, Stage::attributes));
+  verdict.comparisons = {row(Stage::attributes, 100)};
+  EXPECT_EQ(first_beyond_steps(verdict), nullptr);
+}
+
 Comparison declined(Stage stage) { return not_judged("s", "a", stage, Outcome::unsupported, "why"); }
 Comparison compared(Stage stage, std::uint64_t differing = 0) {
   return judged("s", "b", stage, measured(differing, 0, 0, static_cast<double>(differing)));
