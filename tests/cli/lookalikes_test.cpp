@@ -179,6 +179,25 @@ TEST(Lookalikes, are_drawn_by_the_conventions) {
   EXPECT_FALSE(lookalikes(scene, given).whole);
 }
 
+// Truncation moves colours by up to a code: undeclared, it hides affine colours that are a code off.
+TEST(Lookalikes, are_truncated_where_that_is_declared) {
+  const std::vector<std::string> faults = {"merge.truncated", "attributes.affine"};
+  Request request;
+  request.planes = WantedPlanes::picture;
+  std::size_t hidden = 0;
+  for (const char* name : {"camera/needle.json", "light/emission.json", "light/normals_grown.json"}) {
+    const Scene scene = scene_of(name);
+    const Planes planes = make_candidate(faults)->capture(scene, request).planes;
+    GivenFrame given{{planes.color, planes.depth}, {}, {}};
+    hidden += lookalikes(scene, given).whole ? 0 : 1;
+    given.conventions.color_rounding = Conventions::Rounding::down;
+    const Lookalikes found = lookalikes(scene, given);
+    EXPECT_EQ(found.likely, "attributes (fault attributes.affine)") << name << '\n' << found.text;
+    EXPECT_TRUE(found.whole) << name;
+  }
+  EXPECT_GT(hidden, 0u) << "else nothing is tested";
+}
+
 // Attributes that are not in perspective are others where a polygon is cut.
 TEST(Lookalikes, of_renderers_that_leave_the_sides_to_the_raster) {
   const Scene scene = scene_of("clip/crowd.json");

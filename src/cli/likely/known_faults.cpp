@@ -149,6 +149,9 @@ ColorAndDepth draw_with(std::span<const KnownFault* const> faults, const Scene& 
                         CutAt cut_at) {
   Scene changed = scene;
   std::vector<std::string> of_stages;
+  for (const std::string_view declared : {"merge.truncated", "depth.truncated"}) {  // first: a fault of the stage stays
+    if (is_declared(declared, conventions)) of_stages.emplace_back(declared);
+  }
   for (const KnownFault* f : faults) {
     if (f->of_scene) f->of_scene(changed);
     if (!f->of_stage.empty()) of_stages.push_back(f->of_stage);
