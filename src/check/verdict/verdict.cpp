@@ -163,6 +163,12 @@ std::vector<Stage> judged_stages(const SceneVerdict& verdict) {
   return out;
 }
 
+bool is_by_frame_alone(const SceneVerdict& verdict) {
+  return std::ranges::none_of(verdict.comparisons, [](const Comparison& c) {
+    return was_compared(c) && c.stage != Stage::depth && c.stage != Stage::merge;
+  });
+}
+
 bool any_judged(std::span<const SceneVerdict> verdicts) {
   return std::ranges::any_of(verdicts, [](const SceneVerdict& v) { return !judged_stages(v).empty(); });
 }

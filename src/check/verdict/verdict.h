@@ -129,6 +129,8 @@ const Comparison* first_beyond_steps(const SceneVerdict& verdict);
 bool is_legal(const SceneVerdict& verdict, Stage stage);
 /// Stages that a reference judged.
 std::vector<Stage> judged_stages(const SceneVerdict& verdict);
+/// Whether depth and merge alone were compared, as a frame shows them: an earlier stage may be what is wrong.
+bool is_by_frame_alone(const SceneVerdict& verdict);
 /// Whether a reference judged a stage of a scene.
 bool any_judged(std::span<const SceneVerdict> verdicts);
 /// For people: how many of the 13 stages were judged, and why the others were not.

@@ -136,10 +136,7 @@ std::vector<FeatureTally> with_all(std::span<const check::SceneVerdict> verdicts
 
 // Whether the program showed its frame, and no record, where it is wrong.
 bool is_wrong_by_frame(const check::SceneVerdict& verdict) {
-  return conformance_of(verdict) == Conformance::differs &&
-         std::ranges::none_of(verdict.comparisons, [](const check::Comparison& c) {
-           return check::was_compared(c) && c.stage != Stage::depth && c.stage != Stage::merge;
-         });
+  return conformance_of(verdict) == Conformance::differs && check::is_by_frame_alone(verdict);
 }
 
 // Line on scenes of which the frame alone was judged and is wrong: an earlier stage may be. Empty: none.

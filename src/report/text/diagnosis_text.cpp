@@ -44,8 +44,11 @@ std::string first_line(const check::Diagnosis& diagnosis) {
   if (by.empty()) return fmt::format("{} (failed)", name_of(*diagnosis.first));
   const bool is_legal = check::differs_by_steps(diagnosis.verdict, *diagnosis.first) &&
                         check::is_legal(diagnosis.verdict, *diagnosis.first);
-  return fmt::format("{} (against {}){}", name_of(*diagnosis.first), fmt::join(by, "; "),
-                     is_legal ? "; legal: stepping in float makes as much, and the picture holds" : "");
+  const std::string_view remark = is_legal ? "; legal: stepping in float makes as much, and the picture holds"
+                                  : check::is_by_frame_alone(diagnosis.verdict)
+                                      ? ", or an earlier one: the frame alone was judged"
+                                      : "";
+  return fmt::format("{} (against {}){}", name_of(*diagnosis.first), fmt::join(by, "; "), remark);
 }
 
 std::string finding_text(const check::Finding& f) {
