@@ -105,21 +105,23 @@ void learn_corners(Prober& prober) {
   const C& c = prober.learned.conventions;
   if (c.subpixel_bits == C::kFloat) return prober.found(words, "as_they_are", "positions are not snapped");
   if (prober.is_open("color_rounding") || prober.is_open("sample") || c.sample != glm::dvec2(0.5) ||
-      c.color_rounding != C::Rounding::nearest || c.color_encoding != C::Encoding::linear)
-    return prober.open(words, "another sample, rounding or encoding of colours hides it");
+      c.color_encoding != C::Encoding::linear)
+    return prober.open(words, "another sample or encoding of colours hides it");
   const double share = c.subpixel_rounding == C::Rounding::down ? 0.98
                        : c.subpixel_rounding == C::Rounding::up ? -0.98
                                                                 : 0.49,
-               above = std::ldexp(share, -c.subpixel_bits);
+               above = std::ldexp(share, -c.subpixel_bits),
+               middle = 60.5 + middle_of(c.color_rounding),  // between two codes
+      rise = c.subpixel_bits < 2 ? 0.45 : 0.9;               // of a ramp; colours stay in [0,1]
   Scene scene = probe_frame("attribute_corners", kFrameSize, 4);
   std::vector<std::array<ProbeCorner, 3>> triangles;
   for (int i = 0; i < kRamps; ++i) {
-    const double from = 4 * i + 1 + above, first = (60.5 + i) / 255 - 0.9 * (0.5 - above / 2) / 2;
+    const double from = 4 * i + 1 + above, first = (middle + i) / 255 - rise * (0.5 - above / 2) / 2;
     const auto at = [&](double x, double y, double grey) {
       return ProbeCorner{{x, y, 0.5}, glm::vec4(glm::vec3(static_cast<float>(grey)), 1), {}};
     };
     for (const auto& t :
-         quad({at(from, 0, first), at(from + 2, 0, first + 0.9), at(from + 2, 4, first + 0.9), at(from, 4, first)}))
+         quad({at(from, 0, first), at(from + 2, 0, first + rise), at(from + 2, 4, first + rise), at(from, 4, first)}))
       triangles.push_back(t);
   }
   add_triangles(scene, triangles);
@@ -127,9 +129,9 @@ void learn_corners(Prober& prober) {
   std::size_t lower = 0, upper = 0;
   for (int i = 0; i < kRamps; ++i) {
     const double code = std::round(255 * static_cast<double>(color(4 * i + 1, 2).r));
-    const double apart = 255 * 0.9 * above / 2;  // codes
-    lower += code == std::round(60.5 + i - apart / 2) ? 1 : 0,
-        upper += code == std::round(60.5 + i + apart / 2) ? 1 : 0;
+    const double apart = 255 * rise * above / 2;  // codes
+    lower += code == rounded(c.color_rounding, middle + i - apart / 2) ? 1 : 0;
+    upper += code == rounded(c.color_rounding, middle + i + apart / 2) ? 1 : 0;
   }
   const std::string evidence = fmt::format("{} of {} ramps", std::max(lower, upper), kRamps);
   if (std::max(lower, upper) + 1 < kRamps) return prober.open(words, evidence + " at most go by one of the two");

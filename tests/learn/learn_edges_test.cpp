@@ -8,6 +8,25 @@
 namespace plumbline::learn {
 namespace {
 
+// Colours between two codes tell the corners, however colours are rounded to codes: here those of a frame of floats.
+TEST(LearnEdges, CornersOfAttributesAreFoundUnderEachRounding) {
+  for (const C::Rounding rounding : {C::Rounding::nearest, C::Rounding::down, C::Rounding::up}) {
+    OfAlteredScenes renderer;
+    renderer.before = [](Scene& scene) { scene.frame.color = ColorFormat::rgba32f; };
+    renderer.after = [=](const Scene&, Capture& c) {
+      for (glm::vec4& color : c.planes.color.values()) {
+        for (int k = 0; k < 4; ++k)
+          color[k] =
+              static_cast<float>(rounded(rounding, 255.0 * std::clamp(static_cast<double>(color[k]), 0.0, 1.0)) / 255);
+      }
+    };
+    const C found = learn(renderer).conventions;
+    EXPECT_EQ(found.color_rounding, rounding);
+    EXPECT_EQ(found.attribute_corners, C::Corners::as_they_are);
+    EXPECT_FALSE(std::ranges::count(found.open, "attribute_corners")) << conventions_text(found);
+  }
+}
+
 // Model space is the window. Positions may be rounded one way in x and another in y, which no convention is.
 TEST(LearnEdges, AGridOfWholePixelsIsFoundWithItsRounding) {
   const auto learned_of = [](auto x, auto y) {
@@ -26,6 +45,7 @@ TEST(LearnEdges, AGridOfWholePixelsIsFoundWithItsRounding) {
   for (const C& c : {floored, raised, rounded}) {
     EXPECT_EQ(c.subpixel_bits, 0);
     EXPECT_EQ(c.sample, glm::dvec2(0.5));
+    EXPECT_EQ(c.attribute_corners, C::Corners::snapped) << "attributes go by the moved positions";
   }
   EXPECT_EQ(floored.subpixel_rounding, C::Rounding::down);
   EXPECT_EQ(raised.subpixel_rounding, C::Rounding::up);
