@@ -179,6 +179,22 @@ TEST(Lookalikes, are_drawn_by_the_conventions) {
   EXPECT_FALSE(lookalikes(scene, given).whole);
 }
 
+// Of the picture a few pixels are left: faults by which nothing is drawn come near, and are not the cause.
+TEST(Lookalikes, draw_something_where_something_is_drawn) {
+  const Scene scene = scene_of("interpolation/w_ratio.json");
+  GivenFrame given = drawn(scene, "");
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < given.color.size(); ++i) {
+    const bool is_drawn = given.depth.values()[i] < scene.frame.clear_depth;
+    if (!is_drawn || ++left <= 5) continue;
+    given.color.values()[i] = scene.frame.clear_color;
+    given.depth.values()[i] = scene.frame.clear_depth;
+  }
+  ASSERT_GT(left, 100u);
+  const Lookalikes found = lookalikes(scene, given);
+  EXPECT_EQ(found.text.find("window.facing_turned"), std::string::npos) << found.text;
+}
+
 // Truncation moves colours by up to a code: undeclared, it hides affine colours that are a code off.
 TEST(Lookalikes, are_truncated_where_that_is_declared) {
   const std::vector<std::string> faults = {"merge.truncated", "attributes.affine"};

@@ -27,7 +27,18 @@ using KnownFaults = std::vector<const KnownFault*>;
 struct Lookalike {
   KnownFaults faults;
   Apart apart;
+  bool is_blank = false;  // nothing is drawn
 };
+
+bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
+  return std::ranges::none_of(plane.values(), [&](const glm::vec4& c) { return colors_apart(color, c, 1.5f); });
+}
+
+// Depths are as cleared within a code of 16 bits.
+bool has_clear_depth(const FrameFormat& format, const ColorAndDepth& frame) {
+  return std::ranges::all_of(frame.depth.values(),
+                             [&](double z) { return std::abs(z - format.clear_depth) <= 1.0 / 65535; });
+}
 
 // Draws the scene with faults, and counts the pixels that differ. Where the frame's sides cut polygons, the scene is
 // drawn with these cuts and with a guard band (CutAt); the nearer frame counts.
@@ -43,7 +54,9 @@ class Trial {
   Lookalike made(KnownFaults faults) const {
     Lookalike out{std::move(faults), {}};
     for (const auto& [cut_at, right] : right_) {
-      const Apart left = apart_.from(frame_with(out.faults, cut_at, right));
+      const ColorAndDepth frame = frame_with(out.faults, cut_at, right);
+      out.is_blank = has_one_color(frame.color, scene_.frame.clear_color) && has_clear_depth(scene_.frame, frame);
+      const Apart left = apart_.from(frame);
       const bool is_first = cut_at == CutAt::frame_sides;
       const auto nearer = [=](std::size_t a, std::size_t b) { return is_first ? b : std::min(a, b); };
       std::ranges::transform(out.apart, left, out.apart.begin(), nearer);
@@ -157,17 +170,12 @@ void seek_together(const Trial& trial, const std::vector<Lookalike>& alone, cons
   if (named != nullptr) out.text += line_of(*named, left(*named), out.apart);
 }
 
-bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
-  return std::ranges::none_of(plane.values(), [&](const glm::vec4& c) { return colors_apart(color, c, 1.5f); });
-}
-
 // Line for people about a blank frame: one colour in all pixels and, where depth is known, the clear depth within a
 // code of 16 bits. Empty for other frames, and for a colour that is not the clear colour where our frame has one
 // colour, too.
 std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, const ColorAndDepth& right) {
   const glm::vec4 color = given.color.values().front();
-  const auto drawn_at = [&](double z) { return !(std::abs(z - frame.clear_depth) <= 1.0 / 65535); };
-  if (!has_one_color(given.color, color) || std::ranges::any_of(given.depth.values(), drawn_at)) return "";
+  if (!has_one_color(given.color, color) || !has_clear_depth(frame, given)) return "";
   if (!colors_apart(frame.clear_color, color, 1.5f)) return "every pixel has the clear colour: nothing is drawn\n";
   if (has_one_color(right.color, right.color.values().front())) return "";
   return fmt::format(
@@ -196,7 +204,9 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   std::vector<Lookalike> all;
   for (const KnownFault& f : known) all.push_back(trial.made({&f}));
   const Apart without = trial.made({}).apart;
-  std::erase_if(all, [&](const Lookalike& l) { return l.apart == without; });  // without effect on this scene
+  std::erase_if(all, [&](const Lookalike& l) {
+    return l.apart == without || l.is_blank;  // without effect on this scene; or nothing of it is drawn, and some was
+  });
   std::vector<Lookalikes> found;
   for (const Look look : {kCoarseByAlpha, kCoarse, kFineColor, kFineDepth}) {
     if (is_fine(look) && !found.empty()) return found.front();  // coarse differences have no fine cause
