@@ -20,15 +20,19 @@ using C = Conventions;
 
 constexpr int kDepthsInRow = 16;
 
-// Rectangles of 4 x 4 pixels, each at one depth. For a view volume of [0,w] in z, the far half of OpenGL's, depths are
-// mapped to [1/2, 1].
+// The depth in OpenGL's view volume at which the conventions' leaves `z`: of [0,w] in z, the far half of OpenGL's,
+// depths are mapped to [1/2, 1].
+double in_volume(const C& conventions, double z) {
+  return conventions.clip_depth == C::ClipDepth::zero_to_w ? (1 + z) / 2 : z;
+}
+
+// Rectangles of 4 x 4 pixels, each at one depth.
 Scene at_depths(const Prober& prober, const std::string& name, const std::vector<double>& depths) {
-  const bool from_zero = prober.learned.conventions.clip_depth == C::ClipDepth::zero_to_w;
   Scene scene = probe_frame(name, 4 * kDepthsInRow, 4 * kDepthsInRow);
   std::vector<std::array<ProbeCorner, 3>> triangles;
   for (std::size_t i = 0; i < depths.size(); ++i) {
     const glm::dvec2 low(4.0 * static_cast<double>(i % kDepthsInRow), 4.0 * static_cast<double>(i / kDepthsInRow));
-    for (const auto& t : rectangle(low, low + 4.0, from_zero ? (1 + depths[i]) / 2 : depths[i], glm::vec4(1)))
+    for (const auto& t : rectangle(low, low + 4.0, in_volume(prober.learned.conventions, depths[i]), glm::vec4(1)))
       triangles.push_back(t);
   }
   add_triangles(scene, triangles);
@@ -266,7 +270,12 @@ bool count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangle
   constexpr double kDoubleError = 1e-3;  // [step]
   const C& c = prober.learned.conventions;
   std::vector<std::array<ProbeCorner, 3>> corners;
-  for (const SlopedTriangle& t : triangles) corners.push_back({{{t.p_win[0]}, {t.p_win[1]}, {t.p_win[2]}}});
+  for (const SlopedTriangle& t : triangles) {
+    const auto corner = [&](std::size_t i) {
+      return ProbeCorner{{glm::dvec2(t.p_win[i]), in_volume(c, t.p_win[i].z)}, glm::vec4(1), {}};
+    };
+    corners.push_back({corner(0), corner(1), corner(2)});
+  }
   Scene scene = probe_frame(fmt::format("depth_arithmetic_{}", side), side, side);
   add_triangles(scene, corners);
   scene.frame.depth = DepthFormat::z24;

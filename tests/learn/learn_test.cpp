@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include <fmt/ranges.h>
 
@@ -105,6 +106,19 @@ TEST(Learn, DepthsInFloatAreFound) {
 }
 
 // What is nonsense leaves conventions open, at their defaults.
+// With the near plane half way to the far one, ours has the depths of a view volume of [0,w] in z.
+TEST(Learn, DepthsOfAVolumeFromZeroAreRoundedFromTheExactOnes) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) {
+    if (auto* volume = std::get_if<Orthographic>(&scene.projection)) volume->near = (volume->near + volume->far) / 2;
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.clip_depth, C::ClipDepth::zero_to_w);
+  EXPECT_EQ(found.depth_arithmetic, C::DepthArithmetic::in_double);
+  EXPECT_TRUE(std::ranges::none_of(found.unexplained, [](const std::string& says) { return says.find("depth_") == 0; }))
+      << fmt::format("{}", fmt::join(found.unexplained, "\n"));
+}
+
 TEST(Learn, NonsenseIsOpen) {
   const auto of = [](const Alter& alter) {
     Altered renderer(pipeline::make_pipeline(), alter);
