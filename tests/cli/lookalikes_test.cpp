@@ -179,7 +179,7 @@ TEST(Lookalikes, are_drawn_by_the_conventions) {
   EXPECT_FALSE(lookalikes(scene, given).whole);
 }
 
-// Of the picture a few pixels are left: faults by which nothing is drawn come near, and are not the cause.
+// Faults by which nothing is drawn come near a picture of a few pixels, and are not its cause.
 TEST(Lookalikes, draw_something_where_something_is_drawn) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   GivenFrame given = drawn(scene, "");

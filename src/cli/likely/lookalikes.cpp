@@ -27,7 +27,7 @@ using KnownFaults = std::vector<const KnownFault*>;
 struct Lookalike {
   KnownFaults faults;
   Apart apart;
-  bool is_blank = false;  // nothing is drawn
+  bool is_blank = true;  // nothing is drawn, wherever polygons are cut
 };
 
 bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
@@ -55,7 +55,7 @@ class Trial {
     Lookalike out{std::move(faults), {}};
     for (const auto& [cut_at, right] : right_) {
       const ColorAndDepth frame = frame_with(out.faults, cut_at, right);
-      out.is_blank = has_one_color(frame.color, scene_.frame.clear_color) && has_clear_depth(scene_.frame, frame);
+      out.is_blank &= has_one_color(frame.color, scene_.frame.clear_color) && has_clear_depth(scene_.frame, frame);
       const Apart left = apart_.from(frame);
       const bool is_first = cut_at == CutAt::frame_sides;
       const auto nearer = [=](std::size_t a, std::size_t b) { return is_first ? b : std::min(a, b); };
