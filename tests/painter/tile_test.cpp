@@ -70,7 +70,9 @@ TEST(TileCounter, DealsOutEachTileOnceInFewClaims) {
       }
       EXPECT_EQ(next, count);
       // Down to one tile each after 4 threads ln(count / (4 threads)) claims.
-      if (threads == 1 && count == 4096) EXPECT_LT(claims, 40);
+      if (threads == 1 && count == 4096) {
+        EXPECT_LT(claims, 40);
+      }
     }
   }
 }
