@@ -208,6 +208,7 @@ TEST(Workers, EndWithTheirParent) {
     ASSERT_EQ(pipe(ends), 0);
     const pid_t parent = fork();
     if (parent == 0) {
+      std::signal(signal, SIG_DFL);  // a shell's background jobs ignore SIGINT
       const auto make = [&](Progress&) -> Workers::Answer {
         return [&](const std::string&) -> std::string {
           EXPECT_EQ(write(ends[1], "x", 1), 1);

@@ -211,33 +211,14 @@ TEST_F(Diagnose, WithoutExactTheFirstDifferentStageIsTheFinding) {
   EXPECT_TRUE(says("p_win") && says("p_clip")) << "both sides' records are there";
 }
 
-// Ours as another's renderer, whose first fragment's colour is `off` [u].
-class SteppedColors : public Renderer {
- public:
-  SteppedColors(double off, bool wrong_frame) : off_(off), wrong_frame_(wrong_frame) {}
-  RendererInfo info() const override {
-    RendererInfo out = ours_->info();
-    out.profile = Profile::foreign;
-    out.painters.clear();
-    return out;
-  }
-  Capture capture(const Scene& scene, const Request& request) override {
-    Capture out = ours_->capture(scene, request);
-    if (!out.records.attributes.empty()) out.records.attributes[0].color.r += off_ * kU;
-    if (!out.records.shaded.empty()) out.records.shaded[0].color.r += off_ * kU;
-    for (glm::vec4& color : out.planes.color.values()) color = wrong_frame_ ? glm::vec4(0, 0, 0, 1) : color;
-    return out;
-  }
-
- private:
-  double off_;
-  bool wrong_frame_;
-  std::unique_ptr<Renderer> ours_ = pipeline::make_pipeline();
-};
-
 TEST_F(Diagnose, WhatSteppingInFloatMakesIsFirstOnlyWhereNothingElseIsWrong) {
+  // The first fragment's colour is `off` [u].
   const auto of_steps = [&](double off, bool wrong_frame) {
-    SteppedColors stepped(off, wrong_frame);
+    OursAsAnothers stepped([=](Capture& c) {
+      if (!c.records.attributes.empty()) c.records.attributes[0].color.r += off * kU;
+      if (!c.records.shaded.empty()) c.records.shaded[0].color.r += off * kU;
+      for (glm::vec4& color : c.planes.color.values()) color = wrong_frame ? glm::vec4(0, 0, 0, 1) : color;
+    });
     return of(stepped);
   };
   const Diagnosis alone = of_steps(1000, false), hidden = of_steps(1000, true), too_far = of_steps(5000, true);

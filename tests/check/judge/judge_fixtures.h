@@ -40,6 +40,17 @@ class Changed : public Renderer {
   std::unique_ptr<Renderer> inner_;
 };
 
+// Ours as another's renderer, whose captures `alter` changes.
+struct OursAsAnothers : Changed {
+  explicit OursAsAnothers(std::function<void(Capture&)> alter) : Changed(pipeline::make_pipeline()) {
+    on_info = [](RendererInfo& info) {
+      info.profile = Profile::foreign;
+      info.painters.clear();
+    };
+    on_picture = on_capture = std::move(alter);
+  }
+};
+
 // A pipeline as candidate, and three references: `witness`, a pipeline with OpenGL's profile whose stages cannot be
 // run; `oracle`, which shows planes and legal answers alone; `referee`, exact without legal answers.
 struct Judge : testing::Test {

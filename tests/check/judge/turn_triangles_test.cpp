@@ -7,9 +7,8 @@
 
 #include "check/judge/judge_single.h"
 #include "reference/exact/exact.h"
-#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
-#include "tests/check/fixtures.h"
+#include "tests/check/judge/judge_fixtures.h"
 
 namespace plumbline::check {
 namespace {
@@ -93,32 +92,18 @@ TEST(TurnTriangles, TakesTheUsualTurnWhereNoneIsBetter) {
   expect_in_order(mine, theirs);
 }
 
-// ours, as a renderer that begins its triangles elsewhere.
-class Turned : public Renderer {
- public:
-  RendererInfo info() const override {
-    RendererInfo out = ours_->info();
-    out.profile = Profile::foreign;
-    out.painters.clear();
-    return out;
+// Begins each window triangle at the second of its corners.
+void turn_all(Capture& c) {
+  for (std::size_t i = 0; i < c.records.triangles.size(); ++i) {
+    if (c.records.triangles[i].corners == 3) turn(c.records, i, 1);
   }
-  Capture capture(const Scene& scene, const Request& request) override {
-    Capture out = ours_->capture(scene, request);
-    for (std::size_t i = 0; i < out.records.triangles.size(); ++i) {
-      if (out.records.triangles[i].corners == 3) turn(out.records, i, 1);
-    }
-    return out;
-  }
-
- private:
-  std::unique_ptr<Renderer> ours_ = pipeline::make_pipeline();
-};
+}
 
 TEST(TurnTriangles, HoldWhereverTheyBegin) {
   const auto exact = exact::make_exact();
   const Reference references[] = {{"exact", exact.get()}};
   for (const char* name : {"coverage/fan", "clip/each_plane", "phong/glass", "texture/clipped", "lines/widths"}) {
-    Turned turned;
+    OursAsAnothers turned(turn_all);
     const Scene scene = load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/") + name + ".json", {});
     const SceneVerdict verdict = judge_single(scene, turned, references);
     for (const Comparison& c : verdict.comparisons) {
