@@ -108,7 +108,7 @@ inline constexpr std::array<Name, 2> kNamesOf<Conventions::Magnified> = {"up_to_
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::HalfWay> = {"down", "either"};
 
-/// The whole number that the rounding makes of v.
+/// v rounded to an integer.
 double rounded(Conventions::Rounding rounding, double v);
 /// Middle of the interval that the rounding maps to 0: 0 (nearest), 1/2 (down) or -1/2 (up).
 double middle_of(Conventions::Rounding rounding);
@@ -127,7 +127,7 @@ double on_grid(const Conventions& conventions, double p_win);
 struct ConventionWords {
   std::string_view name;     ///< its key in files
   std::string_view meaning;  ///< what it says
-  bool is_free;              ///< OpenGL leaves it to the renderer, of numbers within limits (mistaken())
+  bool is_free;              ///< OpenGL leaves the value open; numbers have limits (mistaken())
 };
 
 /// Calls visit(words, member) for each convention that is one of several words, in the order of tables.
@@ -145,16 +145,14 @@ void each_choice(Visit visit) {
   visit(ConventionWords{"color_rounding", "how colours become codes", false}, &C::color_rounding);
   visit(ConventionWords{"color_encoding", "what codes of colours stand for", false}, &C::color_encoding);
   visit(ConventionWords{"clip_depth", "the view volume in z", false}, &C::clip_depth);
-  visit(ConventionWords{"depth_planes", "what lies before the near plane or beyond the far one", false},
-        &C::depth_planes);
+  visit(ConventionWords{"depth_planes", "geometry beyond the near and far planes", false}, &C::depth_planes);
   visit(ConventionWords{"interpolation", "how attributes are interpolated", false}, &C::interpolation);
   visit(ConventionWords{"attribute_corners", "window positions that attributes are interpolated between", true},
         &C::attribute_corners);
   visit(ConventionWords{"provoking_vertex", "the vertex that colours a flat triangle", false}, &C::provoking_vertex);
   visit(ConventionWords{"alpha_test", "the numbers that are compared", true}, &C::alpha_test);
   visit(ConventionWords{"blending", "the numbers that are blended", true}, &C::blending);
-  visit(ConventionWords{"level_of_detail",
-                        "of each pixel, of squares of two by two, or as OpenGL 2.1, 3.8.8, lets it be approximated",
+  visit(ConventionWords{"level_of_detail", "per pixel, per square of 2 x 2 pixels, or approximated (OpenGL 2.1, 3.8.8)",
                         true},
         &C::level_of_detail);
   visit(ConventionWords{"magnified", "levels of detail at which a texture is magnified", true}, &C::magnified);

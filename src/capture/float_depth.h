@@ -1,7 +1,7 @@
 // Error bounds of depths that a renderer interpolates in float, by its declared arithmetic (conventions.h).
 //
-// u = 2^-24 is float's unit roundoff. A triangle's corners a, b, c lie at window positions [pixel] with depths in
-// [0,1]; e_i are its edge functions, A is twice its area.
+// u = 2^-24 is float's unit roundoff. A triangle's corners lie at window positions (x_i, y_i) [pixel] with depths z_i in
+// [0,1]; e_i(p) = a_i x + b_i y + c_i is the edge function of the edge opposite corner i; A is twice the area.
 #pragma once
 
 #include <array>
@@ -23,9 +23,10 @@ double depth_by_edge_functions(const WindowCorners& corners, glm::dvec2 p);
 /// magnitudes at p and at the farthest corner, and the gradients' error over p's distance from the corners.
 double depth_by_plane(const WindowCorners& corners, glm::dvec2 p);
 
-/// Error of a x + b y + c at p [u of window z], whose coefficients are sums of z_i times those of edge equations over
-/// the sum of their c, each c of window positions: 10 u of |z_i| (|a_i x| + |b_i y| + |c_i|'s terms) and of |z| times
-/// the terms of the sum, over A: difference, product, quotient and sums. Far from the origin small triangles lose most.
+/// Error of a x + b y + c at p [u of window z], where a = sum z_i a_i / A, likewise b and c, and A = sum c_i; each c_i is
+/// x_j y_k - x_k y_j, whose terms are |x_j y_k| + |x_k y_j|. Five roundings on each way (difference, product, quotient,
+/// two sums), both ways: 10 u of (sum |z_i| (|a_i x| + |b_i y| + c_i's terms) + |z| sum of c_i's terms) / A. Small
+/// triangles far from the origin lose most.
 double depth_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
 /// Error of a depth at p [window z], and u for its code: a product and a sum, half a unit in the last place of a number

@@ -12,6 +12,14 @@ Capture Renderer::run_stage(const Scene&, Stage stage, const Capture&) {
   throw Unsupported(fmt::format("{} cannot run stage {} alone", info().name, name_of(stage)));
 }
 
+std::vector<Stage> stages_of(const Scene& scene, Stage first, Stage last) {
+  std::vector<Stage> out;
+  for (const Stage stage : kAllStages) {
+    if (stage >= first && stage <= last && (stage != Stage::texture || textured(scene))) out.push_back(stage);
+  }
+  return out;
+}
+
 bool is_referee(const RendererInfo& info) {
   return info.profile == Profile::exact && std::ranges::any_of(info.stages, &Ability::runs);
 }

@@ -36,6 +36,9 @@ class StageSet {
   std::uint32_t bits_ = 0;
 };
 
+/// Stages of a scene from `first` to `last`, in order: without texture where no draw is textured.
+std::vector<Stage> stages_of(const Scene& scene, Stage first = Stage::matrices, Stage last = Stage::merge);
+
 /// Planes that the caller needs. A renderer may hand out more.
 enum class WantedPlanes {
   all,

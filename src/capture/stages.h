@@ -36,6 +36,12 @@ enum class Stage {
 inline constexpr std::array<std::string_view, 13> kStageNames = {
     "matrices",   "vertex",  "light", "clip",       "window", "coverage", "depth",
     "attributes", "texture", "shade", "visibility", "merge",  "resolve"};
+/// Every stage, in order.
+inline constexpr std::array<Stage, kStageNames.size()> kAllStages = [] {
+  std::array<Stage, kStageNames.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Stage>(i);
+  return all;
+}();
 constexpr std::string_view name_of(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
 
 template <class T>

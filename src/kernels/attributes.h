@@ -19,8 +19,8 @@ struct PerspectiveSetup {
   std::array<float, 3> inv_w;
   Affine<double> q1, q2, sum;
   /// Whether q1, q2 and sum are evaluated in double at the first pixel of each 4 x 4 block only, and in float from
-  /// there. So it is for triangles whose draw carries no varying, where changes_little() holds. (With a texture, float
-  /// could move a border between texels off a pixel's centre.)
+  /// there. Set where the draw has no varying and changes_little() holds. (With a texture, float could move a border
+  /// between texels off a pixel's centre.)
   bool in_blocks = false;
 };
 /// f times `by`.

@@ -78,8 +78,7 @@ struct TextureSetup {
 /// `texture`: levels[sampler.base_level] exists, at most 16 levels.
 TextureSetup texture_setup(const Texture& texture, const Sampler& sampler);
 
-/// Squared length, times q^4, of the longer of the two vectors by which texel coordinates go from one pixel to the next
-/// [texels per pixel].
+/// rho^2 q^4, rho = max(|d(u,v)/dx|, |d(u,v)/dy|) [texels per pixel].
 template <class R>
 [[gnu::always_inline]] inline Wide<R> longer_squared(const TextureSetup& t, const Gradients<R>& g) {
   const auto squared = [&](const Wide<R>& ds, const Wide<R>& dt) {
@@ -89,8 +88,8 @@ template <class R>
   return greater_of(squared(g.ds_dx, g.dt_dx), squared(g.ds_dy, g.dt_dy));
 }
 
-/// lambda (equations 3.17 to 3.22): log2 of the longer of the two vectors by which texel coordinates go from one pixel
-/// to the next, plus the bias, clamped to [min_lod, max_lod]. Squared lengths outside (1e-300, 1e300): min_lod.
+/// lambda (equations 3.17 to 3.22): log2(rho) plus the bias, clamped to [min_lod, max_lod]; rho as in longer_squared().
+/// rho^2 outside (1e-300, 1e300): min_lod.
 template <class R>
 [[gnu::always_inline]] inline R level_of_detail(const TextureSetup& t, const Gradients<R>& g) {
   using W = Wide<R>;

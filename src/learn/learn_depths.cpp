@@ -20,8 +20,8 @@ using C = Conventions;
 
 constexpr int kDepthsInRow = 16;
 
-// The depth in OpenGL's view volume at which the conventions' leaves `z`: of [0,w] in z, the far half of OpenGL's,
-// depths are mapped to [1/2, 1].
+// Depth in OpenGL's view volume [0,1] to draw at, so that the declared view volume yields `z`. The volume [0,w] in z is
+// the far half of OpenGL's.
 double in_volume(const C& conventions, double z) {
   return conventions.clip_depth == C::ClipDepth::zero_to_w ? (1 + z) / 2 : z;
 }

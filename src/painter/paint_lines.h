@@ -22,7 +22,7 @@ template <class R>
   return planes;
 }
 
-/// Paints a run of lines. Where one of a group of lanes is wider than 1, each of the group is painted alone.
+/// Paints a run of lines. A group of lanes with a line wider than 1 pixel is painted one by one.
 template <class R>
 void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile) {
   constexpr int kLanes = Lanes<R>::width;

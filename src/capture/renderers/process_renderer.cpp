@@ -136,8 +136,7 @@ class ProcessRenderer : public Renderer {
     info.name = spec_.name;
     info.version = spec_.version;
     info.conventions = spec_.conventions;
-    for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-      const auto stage = static_cast<Stage>(i);
+    for (const Stage stage : kAllStages) {
       info[stage].shows = spec_.shows.has(stage);
       if (!info[stage].shows) info[stage].reason = "not among the stages that it is said to show";
     }

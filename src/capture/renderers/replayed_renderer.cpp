@@ -75,11 +75,11 @@ class ReplayedRenderer : public Renderer {
     info_.name = capture_.renderer;
     info_.version = capture_.version;
     info_.conventions = conventions;
-    for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-      const Held here = held(capture_, scene, static_cast<Stage>(i));
-      info_.stages[i].shows = here.records || here.planes;
-      info_.stages[i].planes_alone = !here.records;
-      if (!info_.stages[i].shows) info_.stages[i].reason = "the capture does not hold it";
+    for (const Stage stage : kAllStages) {
+      const Held here = held(capture_, scene, stage);
+      info_[stage].shows = here.records || here.planes;
+      info_[stage].planes_alone = !here.records;
+      if (!info_[stage].shows) info_[stage].reason = "the capture does not hold it";
     }
     contradict(Stage::visibility, of_winners);
     contradict(Stage::window, contradictions_of(capture_, Stage::window));

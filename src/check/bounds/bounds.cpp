@@ -59,7 +59,7 @@ double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<doub
 
 namespace {
 
-// Cancellation in the gradients of a triangle's planes; u share longest: a gradient's relative error.
+// Cancellation in the gradients of a triangle's planes. The relative error of a gradient is u * share * longest.
 struct Cancelled {
   Vec2<double> e1;
   double longest, area, share;
@@ -117,7 +117,7 @@ PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, in
   return out;
 }
 
-// A line's by the place on the major axis alone; the share of its second end is value[1].
+// Weights along a line, by the position on the major axis alone; value[1] is the weight of the line's second end.
 Barycentrics along_major(const WindowTriangle<double>& t, const Vec2<double>& e1, int x, int y) {
   const auto in_float = [](double d) { return std::abs(static_cast<float>(d)); };  // x where they are as long
   const int major = in_float(e1.x) >= in_float(e1.y) ? 0 : 1;

@@ -16,7 +16,7 @@ namespace plumbline::check {
 
 namespace {
 
-// `open(fragment)`: whether one more or less is legal.
+// `open(fragment)`: whether it is legal that the fragment is extra or missing.
 Measurement covered_but(const Records<double>& candidate, const Records<double>& reference, auto open) {
   Meter meter("fragments");
   const auto key = [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); };

@@ -237,7 +237,7 @@ class WholePolygon {
   std::span<const Vertices> parts() const { return parts_; }
   bool is_one() const { return parts_.size() < 2 || !joined_.empty(); }
   Vertices vertices() const { return parts_.size() == 1 ? parts_.front() : Vertices(joined_); }
-  // Whether rounding does not make one of several vertices, nor of a polygon a line.
+  // Whether rounding merges no vertices.
   bool is_distinct() const {
     return join_polygons(std::array{vertices()}, corners_, apart_).size() == vertices().size();
   }
@@ -249,7 +249,7 @@ class WholePolygon {
   std::vector<ClipVertex<double>> joined_;
 };
 
-// Parts of a polygon some of whose corners rounding makes one: where each corner of it should be, one of them is.
+// Compares the parts of a polygon whose corners rounding merged: each expected corner lies near one of the parts.
 template <class At>
 void compare_parts(Meter& meter, std::span<const Vertices> parts, Vertices whole, const Corners& corners, double factor,
                    const At& at) {
@@ -298,7 +298,7 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
       const auto compare = [&](Meter& to, bool loosely) {
         compare_polygon(to, a.vertices(), b.vertices(), corners, factor, loosely, at);
       };
-      // Vertices of the same number may be others: of a triangle that lies in a plane, the order of cuts decides.
+      // Equal counts may still be different vertices: of a triangle in a clip plane, the order of cuts decides.
       const std::size_t count = a.vertices().size();
       const bool loosely = count != b.vertices().size() ||
                            (count > 2 && is_cut(a.vertices()) && may_cut_otherwise(corners, factor) && fails(compare));

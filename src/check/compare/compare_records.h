@@ -74,8 +74,8 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// 1/256 pixel together may move the edge. A candidate without a grid counts as one of 1/256 pixel.
 Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
                                       const Conventions& conventions);
-/// Likewise, for a candidate whose tie rule and grid the reference follows (run_by_conventions.h): ambiguous are edges
-/// of triangles alone of which a corner lies within 4 u of where two places of the grid are as near.
+/// Likewise, for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Ambiguous: the edges
+/// of triangles with a corner within 4 u of midway between two grid positions.
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions);
 /// Whether planes.count, and id_sum where there is one, are the sums of the records' fragments.
@@ -83,10 +83,10 @@ bool are_sums_of(const Records<double>& records, const Planes& planes);
 /// compare_covered(); a fragment more or less is ambiguous where `legal` leaves open how many there are
 /// (compare_planes.h), as long as others differ.
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal);
-/// In steps of the depth format; rounded to it as the candidate's conventions say. `from_origin`: of a renderer that
-/// may interpolate in float, u of bounds_from_origin()'s magnitude that a depth of a float format may be off by
-/// besides; and a code, where the conventions say that depths are interpolated in float (else a truncated code would
-/// pass).
+/// In steps of the depth format; rounded to it as the candidate's conventions say. `from_origin`: the allowance for a
+/// foreign renderer that interpolates by planes in float [u of bounds_from_origin()'s magnitude]; 0: none. It counts for
+/// depths of a float format; for codes where the conventions declare depth_arithmetic in float alone (elsewhere a
+/// truncated code would pass).
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions = {}, double from_origin = 0);
 /// `from_origin`: as in compare_depth().

@@ -17,7 +17,7 @@ using Run = std::span<const WindowTriangle<double>>;
 using Colors = std::array<Vec4<double>, 3>;
 
 // Number of corners by which another triangle is turned to fit `t` best: a renderer may begin a triangle at any of its
-// corners, a line at its first alone. apart(turn): how ill it fits; of equal ones the least turn counts.
+// corners, a line at its first alone. apart(turn): the misfit; the smallest turn wins ties.
 template <class Apart>
 std::size_t best_turn(const WindowTriangle<double>& t, Apart apart) {
   std::size_t best = 0;

@@ -8,8 +8,8 @@
 #include "check/compare/compare_records.h"
 #include "check/diagnose/known_causes.h"
 #include "check/judge/judge_passes.h"
+#include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
-#include "check/judge/scene_case.h"
 
 namespace plumbline::check {
 
@@ -27,9 +27,13 @@ std::uint64_t differing(const Evidence& e, const Capture& made) {
   }
   std::vector<Comparison> rows;
   const Legal none;
-  Case c{e.scene, e.candidate, none, nullptr, rows};
-  c.conventions = e.conventions;
-  c.foreign = e.foreign;
+  const Case c{.scene = e.scene,
+               .candidate = e.candidate,
+               .legal = none,
+               .referee = nullptr,
+               .rows = rows,
+               .foreign = e.foreign,
+               .conventions = e.conventions};
   compare_stage(c, made, e.stage, "");
   return rows.empty() ? 0 : rows.back().measurement.differing;
 }

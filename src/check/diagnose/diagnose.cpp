@@ -12,9 +12,10 @@
 #include "check/diagnose/worst_record.h"
 #include "check/judge/failing_stage.h"
 #include "check/judge/judge_passes.h"
+#include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
-#include "check/judge/scene_case.h"
 #include "check/judge/stage_copy.h"
+#include "check/judge/stage_inputs.h"
 #include "reference/arithmetic/passes.h"
 
 namespace plumbline::check {
@@ -55,10 +56,10 @@ struct Pass {
   std::vector<Finding> findings;  // of the stages that are wrong by themselves
   std::optional<Finding> first;   // or, where there is none, of the first different stage
   Plane<glm::vec4> color;         // the candidate's
-  Capture repaired;               // what the candidate would have handed on, were its wrong stages right
+  Capture repaired;               // the candidate's capture, its wrong stages' records replaced
 };
 
-// What exact makes of the records before the stage; nothing where they do not fit.
+// Exact's stage, run on the records before it; nothing where the records do not fit.
 Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, const Capture& in,
                        const Conventions& conventions) {
   try {
@@ -77,6 +78,17 @@ struct Finder {
   Explain explain;
   Conventions conventions;
   bool foreign;
+  // The judgement of the candidate's capture, to which run_exact_stage() adds.
+  Case case_of(const Capture& mine, std::vector<Comparison>& rows) const {
+    static const Legal none;
+    return {.scene = scene,
+            .candidate = mine,
+            .legal = none,
+            .referee = &referee,
+            .rows = rows,
+            .foreign = foreign,
+            .conventions = conventions};
+  }
   Finding operator()(const Capture& mine, const Comparison& row) const {
     Finding out = finding_of(row);
     if (row.outcome == Outcome::failed) {
@@ -96,21 +108,15 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
   Capture& in = pass.repaired;
   const RendererInfo info = candidate.info(), referee_info = referee.info();
   const bool fragments_are_here = !lacks_fragment_records(in);
-  for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
-    copy_stage(static_cast<Stage>(i), {}, in);  // made of wrong records
-  }
-  for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
-    const auto stage = static_cast<Stage>(i);
-    if (stage == Stage::texture && !textured(scene)) continue;
+  clear_stages_after(*known.begin(), in);  // made of wrong records
+  for (const Stage stage : stages_of(scene, *known.begin())) {
     if (stage >= Stage::coverage && !fragments_are_here) return;
     if (!info[stage].runs || !referee_info[stage].runs) return;
     bool wrong = known.contains(stage);
     if (!wrong) {
       const JudgeId name(referee_info.name, Kind::repaired);
       std::vector<Comparison> rows;
-      const Legal none;
-      Case c{scene, in, none, &referee, rows};
-      c.conventions = find.conventions, c.foreign = find.foreign;
+      const Case c = find.case_of(in, rows);
       try {
         copy_stage(stage, candidate.run_stage(scene, stage, in), in);
         run_exact_stage(c, referee, stage, name);
@@ -165,13 +171,11 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   try {
     const Capture mine = candidate.capture(find.scene, {StageSet::all(), false, {}, pixels});
     const JudgeId name(find.referee.info().name, Kind::at_worst);
-    const Legal none;
-    Case c{find.scene, mine, none, &find.referee, pass.verdict.comparisons};
-    c.conventions = find.conventions, c.foreign = find.foreign;
-    for (const Stage stage : {Stage::depth, Stage::attributes, Stage::texture, Stage::shade}) {
-      if ((stage == Stage::texture && !textured(find.scene)) || lacks_fragment_records(mine)) continue;
+    const Case c = find.case_of(mine, pass.verdict.comparisons);
+    if (lacks_fragment_records(mine)) return;
+    for (const Stage stage : stages_of(find.scene, Stage::depth, Stage::shade)) {
       run_exact_stage(c, find.referee, stage, name);
-      if (is_wrong(c.out.back())) pass.findings.push_back(find(mine, c.out.back()));
+      if (is_wrong(c.rows.back())) pass.findings.push_back(find(mine, c.rows.back()));
     }
   } catch (const std::exception&) {  // what the planes show stands
   }
@@ -291,6 +295,25 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
   return out;
 }
 
+// Diagnosis::first, of findings in the stages' order.
+std::optional<Stage> headline(const Diagnosis& d, bool foreign) {
+  const bool by_tie_rule = foreign && is_legal(d.verdict, Stage::coverage);
+  const auto is_legal_coverage = [&](Stage stage) { return stage == Stage::coverage && by_tie_rule; };
+  const auto matters =
+      std::ranges::find_if(d.findings, [&](const Finding& f) { return f.explains > 0 && !is_legal_coverage(f.stage); });
+  if (matters != d.findings.end()) return matters->stage;
+  const Comparison* const row = first_different(d.verdict);
+  if (row == nullptr && d.wrong.empty()) return std::nullopt;
+  const bool by_wrong = row == nullptr ||  // it failed
+                        (!d.wrong.empty() && row->stage < d.wrong[0] && holds_alone(d.verdict, row->stage));
+  const Stage stage = by_wrong ? d.wrong[0] : row->stage;
+  const Comparison* const beyond = first_beyond_steps(d.verdict);
+  if (foreign && differs_by_steps(d.verdict, stage) && beyond != nullptr) return beyond->stage;
+  if (!is_legal_coverage(stage)) return stage;
+  const auto other = std::ranges::find_if(d.wrong, [](Stage s) { return s != Stage::coverage; });
+  return other != d.wrong.end() ? std::optional(*other) : std::nullopt;
+}
+
 Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                     std::uint64_t most_fragments, Explain explain) {
   Diagnosis out;
@@ -305,29 +328,15 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
   }
   out.findings = worst_of_each(std::move(out.findings));
   for (const Finding& f : out.findings) out.wrong.push_back(f.stage);
-  const bool by_tie_rule = candidate.info().profile == Profile::foreign && is_legal(out.verdict, Stage::coverage);
-  const auto matters = std::ranges::find_if(
-      out.findings, [&](const Finding& f) { return f.explains > 0 && !(f.stage == Stage::coverage && by_tie_rule); });
-  const auto headline = matters != out.findings.end() ? std::optional(matters->stage) : std::nullopt;
+  const bool foreign = is_foreign(candidate);
+  out.first = headline(out, foreign);
   std::ranges::stable_sort(out.findings, std::greater(), &Finding::explains);
   if (const Comparison* row = first_different(out.verdict)) {
-    out.first = row->stage;
-    if (!out.wrong.empty() && row->stage < out.wrong[0] && holds_alone(out.verdict, row->stage))
-      out.first = out.wrong[0];
     if (out.wrong.empty()) out.findings.push_back(first ? *first : finding_of(*row));
-  } else if (!out.wrong.empty()) {
-    out.first = out.wrong[0];  // which failed
-  }
-  const Comparison* beyond = first_beyond_steps(out.verdict);
-  if (headline) {
-    out.first = headline;
-  } else if (is_foreign(candidate) && out.first && differs_by_steps(out.verdict, *out.first) && beyond != nullptr) {
-    out.first = beyond->stage;
-    if (std::ranges::find(out.wrong, beyond->stage) == out.wrong.end())
+    const Comparison* const beyond = first_beyond_steps(out.verdict);
+    if (foreign && out.first != row->stage && beyond != nullptr && out.first == beyond->stage &&
+        std::ranges::find(out.wrong, beyond->stage) == out.wrong.end())
       out.findings.insert(out.findings.begin(), first ? *first : finding_of(*beyond));
-  } else if (by_tie_rule && out.first == Stage::coverage) {
-    const auto other = std::ranges::find_if(out.wrong, [](Stage stage) { return stage != Stage::coverage; });
-    out.first = other != out.wrong.end() ? std::optional(*other) : std::nullopt;
   }
   return out;
 }
@@ -348,9 +357,7 @@ Capture expected_capture(const Scene& scene, Renderer& referee) {
   out.renderer = referee.info().name;
   out.width = scene.frame.width;
   out.height = scene.frame.height;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(Stage::merge); ++i) {
-    const auto stage = static_cast<Stage>(i);
-    if (stage == Stage::texture && !textured(scene)) continue;
+  for (const Stage stage : stages_of(scene)) {
     copy_stage(stage, referee.run_stage(scene, stage, out), out);
     round_to_formats(scene, stage, out);
   }

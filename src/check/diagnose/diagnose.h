@@ -27,10 +27,12 @@ struct Finding {
 
 struct Diagnosis {
   SceneVerdict verdict;  ///< judge()'s, and the rows of repaired records
-  /// The first stage that is wrong by itself and explains pixels of the picture. Where none does: the stage of
-  /// first_different(), but the first of `wrong` if that comes later and the former stage holds alone, or if no row is
-  /// `different`. Never coverage of a foreign candidate that differs by legal fragments alone: then the first other of
-  /// `wrong`, or none. Not a stage of it that differs by steps (verdict.h) where another differs by more.
+  /// The headline; by the first rule that applies:
+  /// 1. the first of `wrong` that explains pixels of the picture;
+  /// 2. the stage of first_different(), unless it holds in the row `per_stage` and `wrong` names a later stage;
+  /// 3. the first of `wrong`.
+  /// Of a foreign candidate, two kinds of stages do not count while another stage of `wrong` differs otherwise: coverage
+  /// that differs by legal fragments alone (which never is the headline), and a stage that differs by steps (verdict.h).
   std::optional<Stage> first;
   std::vector<Stage> wrong;  ///< every stage that is wrong by itself, in order
   /// One for each of `wrong`, those first that explain most pixels; of the first different stage where there is none.

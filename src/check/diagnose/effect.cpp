@@ -13,12 +13,9 @@ namespace {
 
 // The frame that the referee makes of a capture's records up to `stage`.
 Planes finished(const Scene& scene, Renderer& referee, Stage stage, Capture of) {
-  for (auto i = static_cast<std::size_t>(stage) + 1; i <= static_cast<std::size_t>(Stage::merge); ++i) {
-    copy_stage(static_cast<Stage>(i), {}, of);  // made of other records
-  }
-  for (auto i = static_cast<std::size_t>(stage) + 1; i <= static_cast<std::size_t>(Stage::merge); ++i) {
-    const auto next = static_cast<Stage>(i);
-    if (next == Stage::texture && !textured(scene)) continue;
+  clear_stages_after(stage, of);  // made of other records
+  for (const Stage next : stages_of(scene)) {
+    if (next <= stage) continue;
     copy_stage(next, referee.run_stage(scene, next, of), of);
     round_to_formats(scene, next, of);
   }

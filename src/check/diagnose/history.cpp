@@ -9,7 +9,7 @@
 
 #include "capture/by_conventions.h"
 #include "capture/fragment_outcomes.h"
-#include "check/judge/scene_case.h"
+#include "check/judge/stage_inputs.h"
 #include "scene/antialias.h"
 #include "scene/draw_index.h"
 

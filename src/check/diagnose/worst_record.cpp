@@ -11,7 +11,6 @@
 #include "capture/files/capture_columns.h"
 #include "check/bounds/units.h"
 #include "check/diagnose/coverage_differences.h"
-#include "check/judge/scene_case.h"
 #include "check/judge/stage_inputs.h"
 #include "scene/draw_index.h"
 

@@ -43,8 +43,9 @@ GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const G
   }
   if (golden->second.scene != scene_hash(scene)) out.why = "the scene changed since its golden was made";
   if (out.golden.color.empty()) return out;
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    if (out.golden.stages[i] != out.drawn.stages[i]) out.stages.push_back(static_cast<Stage>(i));
+  for (const Stage stage : kAllStages) {
+    const auto i = static_cast<std::size_t>(stage);
+    if (out.golden.stages[i] != out.drawn.stages[i]) out.stages.push_back(stage);
   }
   out.color = compare_color_bits(out.drawn.color, out.golden.color, scene.frame.color);
   out.depth = compare_depth_bits(out.drawn.depth, out.golden.depth, scene.frame.depth);

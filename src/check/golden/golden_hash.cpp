@@ -54,8 +54,8 @@ void add_material(Hasher& hasher, const Material& m) {
   hasher.add_value(m.shininess);
 }
 
-// The stage that an array is hashed with. The winners' texels and colours are other ones where another fragment wins:
-// beside the records of all fragments they say no more than that.
+// The stage that an array is hashed with. Winners' texels and colours follow from visibility: beside fragment records
+// they are hashed with it.
 Stage hashed_with(Handed of, bool fragments) {
   const bool of_winners = of.name == "planes.texel" || of.name == "planes.shaded";
   return of_winners && fragments ? Stage::visibility : of.stage;

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "check/compare/compare_planes.h"
-#include "check/judge/scene_case.h"
+#include "check/judge/rows.h"
 
 namespace plumbline::check {
 
@@ -32,7 +32,7 @@ std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
 
 }  // namespace
 
-void ask_oracle(Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
+void ask_oracle(const Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
   const Planes& planes = c.candidate.planes;
   const auto add = [&](auto compare, std::optional<Stage> as = {}) {
     const Tolerance& row = tolerance(Profile::oracle, as.value_or(stage));

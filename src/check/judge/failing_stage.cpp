@@ -11,9 +11,7 @@ std::optional<FailingStage> failing_stage(const Scene& scene, Renderer& candidat
   Capture in;
   in.width = scene.frame.width;
   in.height = scene.frame.height;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(Stage::merge); ++i) {
-    const auto stage = static_cast<Stage>(i);
-    if (stage == Stage::texture && !textured(scene)) continue;
+  for (const Stage stage : stages_of(scene)) {
     try {
       if (info[stage].runs) candidate.run_stage(scene, stage, in);
     } catch (const std::exception& e) {

@@ -9,7 +9,7 @@
 
 #include "check/bounds/units.h"
 #include "check/compare/compare_bits.h"
-#include "check/judge/scene_case.h"
+#include "check/judge/judge_records.h"
 #include "check/verdict/ledger.h"
 #include "reference/arithmetic/passes.h"
 #include "scene/antialias.h"

@@ -19,8 +19,9 @@ namespace {
 
 using C = Conventions;
 
-// ---- window: exact snaps to 1/256 pixel, and samples at centres. Another grid is that of a window which is magnified
-// about a pixel's centre; another sample is at the centre of a window that is moved (capture/by_conventions.h).
+// ---- window: exact snaps to 1/256 pixel, and samples at centres. For another grid, the window is magnified about a
+// pixel's centre, exact runs, and its records are scaled back; for another sample the window is moved
+// (capture/by_conventions.h).
 
 constexpr int kFinestBits = 16;       // for renderers without a grid
 constexpr double kFarthest = 0x1p30;  // of snapped positions [steps of the grid]
@@ -46,8 +47,8 @@ int bits_of_grid(const Scene& scene, const Records<double>& r, const C& conventi
   return bits;
 }
 
-// Offset of a position [steps] whose nearest whole number is then the one that the rounding makes of it. A position
-// less than 2^-20 from a whole number counts as that.
+// Bias [steps] that turns rounding to nearest into the declared rounding. A position less than 2^-20 from a whole number
+// counts as that number.
 double bias_of(C::Rounding rounding) {
   constexpr double kHalf = 0.5 - 0x1p-20;
   return rounding == C::Rounding::down ? -kHalf : rounding == C::Rounding::up ? kHalf : 0;
@@ -95,7 +96,7 @@ Scene mirrored(const Scene& scene, Mirror by) {
   return out;
 }
 
-// The triangles, or else the lines and points: the others are moved to where they cover nothing.
+// Window records of triangles alone, or of lines and points alone: the records of the other kind become degenerate.
 Capture window_records(const Capture& in, bool of_triangles) {
   Capture out;
   out.width = in.width;

@@ -19,8 +19,8 @@ bool draws_otherwise(const Conventions& conventions, Stage stage);
 bool knows_ties(const Scene& scene, const Conventions& conventions);
 
 /// referee.run_stage(scene, stage, in), but for what the conventions say otherwise than OpenGL:
-/// - window: positions are moved as to_dialect() moves them; triangles have an area and face the front on the declared grid; on one of 16 bits, or fewer where positions
-///   on it do not fit 31 bits, where corners are not snapped;
+/// - window: positions are moved as to_dialect() moves them; a triangle's area and facing are those on the declared
+///   grid. Corners that are not snapped count on a grid of 16 bits, or of fewer where positions exceed 31 bits;
 /// - coverage: where knows_ties(), triangles own samples on their edges by the declared rule;
 /// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between which
 ///   the renderer interpolates; where attribute_corners are snapped, the renderer interpolates between snapped corners;

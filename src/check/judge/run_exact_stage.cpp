@@ -8,8 +8,9 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
+#include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
-#include "check/judge/scene_case.h"
+#include "check/judge/stage_inputs.h"
 
 namespace plumbline::check {
 
@@ -73,7 +74,7 @@ void keep_legal(const Case& c, Plane<std::uint8_t>& open) {
 
 // Winners and fragments drawn. Of a foreign candidate, pixels are ambiguous where its depth buffer may be of double
 // (open_by_double) and the oracle calls the winner legal.
-void compare_visible(Case& c, const Capture& made, const JudgeId& name) {
+void compare_visible(const Case& c, const Capture& made, const JudgeId& name) {
   const auto compare = [&](const Capture& theirs) {
     return worse(compare_winners(c.candidate.planes, theirs.planes, Legal{}),
                  compare_drawn(c.candidate.records, theirs.records));
@@ -123,8 +124,9 @@ std::uint64_t depths_that_differ(const Case& c, const Capture& made) {
 
 }  // namespace
 
-// Depths may go by the corners as they are where attributes go by the snapped ones: the convention is of attributes.
-void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& name) {
+// attribute_corners binds attributes alone: where it is `snapped`, depths are made from the snapped corners and from the
+// corners as they are, and the better fit counts.
+void run_exact_stage(const Case& c, Renderer& referee, Stage stage, const JudgeId& name) {
   if (stage >= Stage::depth && lacks_fragment_records(c.candidate))
     return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   Conventions by = c.foreign ? c.conventions : Conventions();
@@ -137,7 +139,7 @@ void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& nam
   compare_stage(c, made, stage, name);
 }
 
-void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& name) {
+void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeId& name) {
   const Records<double>&mine = c.candidate.records, &theirs = made.records;
   const auto add = [&](auto compare, std::string_view part = "") {
     const Tolerance& row = tolerance(Profile::exact, stage, part);

@@ -8,7 +8,8 @@
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
 #include "check/compare/legal_window.h"
-#include "check/judge/scene_case.h"
+#include "check/judge/rows.h"
+#include "check/judge/stage_inputs.h"
 
 namespace plumbline::check {
 
@@ -17,7 +18,7 @@ namespace {
 // Whether a reference's coverage contradicts the window triangles that it hands out itself, and the candidate's follows
 // from them: exact arithmetic on the reference's own records is the third witness. (llvmpipe culls by the unsnapped
 // area as well, once anything in a batch is clipped.)
-bool contradicts_itself(Case& c, const Capture& mine, const Capture& theirs) {
+bool contradicts_itself(const Case& c, const Capture& mine, const Capture& theirs) {
   if (c.referee == nullptr || theirs.records.triangles.empty()) return false;
   Capture window;
   std::ranges::copy_if(theirs.records.triangles, std::back_inserter(window.records.triangles),
@@ -30,8 +31,7 @@ bool contradicts_itself(Case& c, const Capture& mine, const Capture& theirs) {
   }
 }
 
-constexpr std::string_view kNoNumber =
-    "Mesa's power of the highlight's cosine is beyond float, and infinity times a specular term of 0 no number";
+constexpr std::string_view kNoNumber = "Mesa's specular power overflows float, and infinity times 0 is NaN";
 constexpr FloatRange kOfMesa{kFlushedUnderflow, kNoNumber};
 constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
 constexpr std::string_view kNo16BitsBesideStencil =
@@ -54,28 +54,19 @@ bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
   });
 }
 
-void compare_covers(Case& c, const Capture& mine, const Capture& theirs, const JudgeId& name) {
+void compare_covers(const Case& c, const Capture& mine, const Capture& theirs, const JudgeId& name) {
   if (draws(c.scene, Topology::lines)) {
     const Tolerance& row = tolerance(c.profile, Stage::coverage, "lines");
     c.add(name, Stage::coverage, compare_covered_lines(c.scene, mine, theirs, row.factor), &row);
   } else {
     c.add(name, Stage::coverage, compare_coverage(mine.planes, theirs.planes, c.open_coverage()));
   }
-  if (c.out.back().outcome == Outcome::different && contradicts_itself(c, mine, theirs)) {
-    to_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
+  if (c.rows.back().outcome == Outcome::different && contradicts_itself(c, mine, theirs)) {
+    to_dispute(c.rows.back(), "its coverage is not that of its own window triangles, the candidate's is");
   }
 }
 
-}  // namespace
-
-bool lacks_texels(const Case& c, Stage stage) {
-  const bool of_texels = stage == Stage::texture || stage == Stage::shade || stage == Stage::merge;
-  return of_texels && textured(c.scene) && c.candidate.legal.texels.empty();
-}
-
-namespace {
-
-void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
+void compare_shown(const Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const Records<double>& mine = c.candidate.records;
   const auto factor_of = [&](Stage of, std::string_view part = "") { return tolerance(c.profile, of, part).factor; };
   const auto add = [&](Measurement m, std::string_view part = "", std::string note = "") {
@@ -131,7 +122,7 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
     case Stage::merge: {
       const bool replaced = colors_replace(c.scene);
       if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {
-        return c.skip(name, stage, Outcome::unsupported, "it shows not which fragments are drawn");
+        return c.skip(name, stage, Outcome::unsupported, "it does not show which fragments are drawn");
       }
       if (!replaced && lacks_fragment_records(c.candidate))
         return c.skip(name, stage, Outcome::unsupported, kOverBudget);
@@ -165,37 +156,35 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
 // Compares the stage beside turned outlines (legal_window.h), which the two sides may draw as different faces: coverage
 // leaves them out, later planes are open where they lie. The rows of exact per stage judge them. False: nothing was
 // compared, because the stage is an earlier one, there are none, or what they cover is unknown.
-bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
+bool compare_beside_turned(const Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const bool lines_untold = draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate);
   if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
   const std::vector<std::uint32_t> turned = turned_outlines(c.scene, c.candidate.records, theirs.records);
   if (turned.empty()) return false;
   const BesideTurned beside = beside_turned(c.scene, c.candidate, theirs, turned, *c.referee);
-  const std::uint64_t before = c.open;
   if (stage == Stage::coverage) {
-    c.open += turned.size();
-    compare_covers(c, beside.candidate, beside.reference, name);
+    compare_covers(c.with_open(turned.size()), beside.candidate, beside.reference, name);
   } else {
     Capture settled = theirs;
-    c.open += copy_open_pixels(beside.open, c.candidate.planes, settled.planes);
-    compare_shown(c, settled, stage, name);
+    const std::uint64_t open = copy_open_pixels(beside.open, c.candidate.planes, settled.planes);
+    compare_shown(c.with_open(open), settled, stage, name);
   }
-  c.open = before;
   return true;
 }
 
 }  // namespace
 
-void side_by_side(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
-  const std::size_t before = c.out.size();
+void side_by_side(const Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
+  const std::size_t before = c.rows.size();
   if (!compare_beside_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
-  // The frame's depths may all be codes, such as the clear depth's, where depths tested before were not.
+  if (c.rows.size() == before) return;
+  // The frame's depths may all be codes, such as the clear depth's, where depths tested before were not: a difference
+  // then says nothing.
+  Comparison& row = c.rows.back();
   const bool by_depth = stage == Stage::visibility || stage == Stage::merge;
-  if (!by_depth || has_depth_format(c.scene.frame) || c.out.size() == before) return;
-  const Outcome outcome = c.out.back().outcome;
-  if (outcome != Outcome::different && outcome != Outcome::dispute) return;
-  c.out.pop_back();
-  c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+  const bool differs = row.outcome == Outcome::different || row.outcome == Outcome::dispute;
+  if (by_depth && differs && !has_depth_format(c.scene.frame))
+    row = not_judged(c.scene.name, name, stage, Outcome::unsupported, std::string(no_such_depth(c.scene.frame)));
 }
 
 }  // namespace plumbline::check

@@ -64,6 +64,12 @@ void copy_stage(Stage stage, const Capture& from, Capture& to) {
   if (stage == Stage::resolve) to.planes.color = from.planes.color;
 }
 
+void clear_stages_after(Stage stage, Capture& capture) {
+  for (const Stage later : kAllStages) {
+    if (later > stage && later <= Stage::merge) copy_stage(later, {}, capture);
+  }
+}
+
 void round_to_formats(const Scene& scene, Stage stage, Capture& capture) {
   if (stage == Stage::depth) {
     for (double& z : capture.records.depth) z = to_code(z, depth_scale(scene.frame.depth));

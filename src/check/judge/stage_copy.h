@@ -10,6 +10,9 @@ namespace plumbline::check {
 /// Replaces the stage's records and planes in `to` by those in `from`.
 void copy_stage(Stage stage, const Capture& from, Capture& to);
 
+/// Empties the stages after `stage`, up to merge.
+void clear_stages_after(Stage stage, Capture& capture);
+
 /// Rounds what the capture holds of the stage: depths and colours to the frame's codes where it has codes, all else to
 /// float. Snapped positions and facing stay as they are.
 void round_to_formats(const Scene& scene, Stage stage, Capture& capture);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "check/judge/scene_case.h"
-
 namespace plumbline::check {
 
 StageSet inputs_of(Stage stage) {
@@ -40,12 +38,10 @@ namespace {
 
 // The first of `inputs` whose records the candidate does not show, with the reason; empty: it shows all.
 std::string lacking_records(const Scene& scene, const RendererInfo& candidate, StageSet inputs) {
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    const auto stage = static_cast<Stage>(i);
-    if (!inputs.has(stage) || (stage == Stage::texture && !textured(scene))) continue;
-    if (candidate[stage].given) continue;
-    if (!candidate[stage].shows) return fmt::format("{}: {}", kStageNames[i], candidate[stage].reason);
-    if (candidate[stage].planes_alone) return fmt::format("{}: it shows planes, no records", kStageNames[i]);
+  for (const Stage stage : stages_of(scene)) {
+    if (!inputs.has(stage) || candidate[stage].given) continue;
+    if (!candidate[stage].shows) return fmt::format("{}: {}", name_of(stage), candidate[stage].reason);
+    if (candidate[stage].planes_alone) return fmt::format("{}: it shows planes, no records", name_of(stage));
   }
   return "";
 }

@@ -1,7 +1,10 @@
 // Inputs that judging a stage needs, and which of them a candidate lacks.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "capture/capture.h"
 #include "capture/renderer.h"
@@ -9,8 +12,21 @@
 
 namespace plumbline::check {
 
+/// The note of stage attributes, of a renderer that hands out no colour before shade.
+inline constexpr std::string_view kOnlyShaded = "it hands out the final colour alone; see shade";
+
 /// Stages whose records are the stage's input or enter its tolerance.
 StageSet inputs_of(Stage stage);
+
+/// Whether the count plane has fragments and the records none: beyond the budget, or a capture of planes alone.
+inline bool lacks_fragment_records(const Capture& c) {
+  const auto& count = c.planes.count.values();
+  return c.records.covered.empty() && std::any_of(count.begin(), count.end(), [](std::uint32_t n) { return n != 0; });
+}
+
+inline bool draws_lines_or_points(const Scene& scene) {
+  return draws(scene, Topology::lines) || draws(scene, Topology::points);
+}
 
 /// Whether `planes` holds the plane that an oracle's legal answers of the stage are compared with.
 bool has_plane(const Planes& planes, Stage stage);

@@ -8,9 +8,9 @@
 namespace plumbline::check {
 
 /// Turns the candidate's window triangles of three corners, with their varyings, into the order of the reference's: a
-/// renderer may begin a triangle at any corner. A triangle takes the turn under which most of its numbers are those of
-/// one of the primitive's triangles of the reference, to 1e-3; of several such turns the nearest, of equally near ones
-/// the one of most triangles, and 0 where no number tells. A wrong number does not decide: the others do.
+/// renderer may begin a triangle at any corner. Each triangle takes the turn (0, 1 or 2 corners) under which most of its
+/// numbers match, to 1e-3, those of one of the reference's triangles of the primitive: a wrong number is outvoted.
+/// Ties: the smallest distance, then the turn that most triangles take, then 0.
 void turn_triangles(Records<double>& candidate, const Records<double>& reference);
 
 /// turn_triangles() into the order of those that the referee makes of the candidate's polygons. `shown`: the candidate's

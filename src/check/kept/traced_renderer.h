@@ -63,10 +63,10 @@ class TracedRenderer : public Renderer {
 template <class Archive>
 void visit(Archive& archive, TracedCall& c) {
   std::vector<std::uint8_t> stages;
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) stages.push_back(c.request.records.has(static_cast<Stage>(i)));
+  for (const Stage stage : kAllStages) stages.push_back(c.request.records.has(stage));
   visit_all(archive, c.pass, stages, c.request.primitives);
   for (std::size_t i = 0; i < stages.size(); ++i) {
-    if (stages[i] != 0) c.request.records.add(static_cast<Stage>(i));
+    if (stages[i] != 0) c.request.records.add(kAllStages.at(i));
   }
   c.request.pixels.resize(archive.count(c.request.pixels));
   for (glm::ivec2& pixel : c.request.pixels) visit_all(archive, pixel.x, pixel.y);

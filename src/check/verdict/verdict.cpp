@@ -157,8 +157,8 @@ bool was_judged(const SceneVerdict& verdict, Stage stage) {
 
 std::vector<Stage> judged_stages(const SceneVerdict& verdict) {
   std::vector<Stage> out;
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    if (was_judged(verdict, static_cast<Stage>(i))) out.push_back(static_cast<Stage>(i));
+  for (const Stage stage : kAllStages) {
+    if (was_judged(verdict, stage)) out.push_back(stage);
   }
   return out;
 }
@@ -175,17 +175,16 @@ bool any_judged(std::span<const SceneVerdict> verdicts) {
 
 std::string judged_text(const SceneVerdict& verdict) {
   std::vector<std::pair<std::string, std::string>> lacking;  // a reason, and its stages
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    const auto stage = static_cast<Stage>(i);
+  for (const Stage stage : kAllStages) {
     if (was_judged(verdict, stage)) continue;
     const auto row = std::ranges::find_if(
         verdict.comparisons, [&](const Comparison& c) { return c.stage == stage && votes(c) && !c.note.empty(); });
     const std::string reason = row == verdict.comparisons.end() ? "not in this scene" : row->note;
     const auto known = std::ranges::find(lacking, reason, &std::pair<std::string, std::string>::first);
     if (known != lacking.end()) {
-      known->second += fmt::format(", {}", kStageNames[i]);
+      known->second += fmt::format(", {}", name_of(stage));
     } else {
-      lacking.emplace_back(reason, kStageNames[i]);
+      lacking.emplace_back(reason, name_of(stage));
     }
   }
   std::string out = fmt::format("{} of {} stages judged\n", judged_stages(verdict).size(), kStageNames.size());
@@ -195,8 +194,7 @@ std::string judged_text(const SceneVerdict& verdict) {
 
 std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
   std::vector<Stage> out;
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    const auto stage = static_cast<Stage>(i);
+  for (const Stage stage : kAllStages) {
     const bool judged_by_any = was_judged(verdict, stage);
     // Of a scene without textures, or that is not antialiased, nobody says anything of their stages.
     const bool of_some = stage == Stage::texture || stage == Stage::resolve;

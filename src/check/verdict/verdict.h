@@ -31,6 +31,9 @@ inline constexpr std::size_t kOutcomes = 9;
 std::string_view name_of(Outcome outcome);
 /// equal, within, ambiguous_only.
 bool holds(Outcome outcome);
+/// The note of a stage whose fragments are more than are looked at one by one (judge_single.h, `most_fragments`).
+inline constexpr std::string_view kOverBudget = "more fragments than are looked at one by one";
+
 /// different, failed, missing.
 bool is_failure(Outcome outcome);
 
@@ -39,9 +42,9 @@ enum class Kind {
   side_by_side,  ///< by a reference's records and planes of the same scene
   legal,         ///< by a reference's legal answers (legal.h) of the same scene
   from_scene,    ///< by the referee's records and legal answers of the same scene
-  per_stage,     ///< by the stage as the referee makes it of the candidate's own records
+  per_stage,     ///< against the referee's stage, run on the candidate's own records
   at_worst,      ///< per_stage, of the fragments about the worst pixels alone (diagnose.h)
-  repaired,      ///< per_stage, of records whose wrong stages are replaced by the referee's (diagnose.h)
+  repaired,      ///< per_stage, the referee's records in place of wrong stages' (diagnose.h)
   golden,        ///< against the scene's golden (golden.h), hashes and a frame of an earlier run: no vote
   picture        ///< each painter's frame, drawn without records, against the frame drawn with records: no vote
 };

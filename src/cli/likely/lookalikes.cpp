@@ -246,8 +246,8 @@ Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict
 GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict) {
   GivenFrame out{{left.planes.color, left.planes.depth}, renderer.conventions, legal_pixels(left.planes, verdict)};
   out.has_alpha = true;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(Stage::merge); ++i) {
-    const auto stage = static_cast<Stage>(i);
+  for (const Stage stage : kAllStages) {
+    if (stage >= Stage::merge) break;
     if (renderer[stage].given || report::is_right(verdict, stage)) out.right.add(stage);
   }
   for (const check::Comparison& row : verdict.comparisons) {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "check/judge/scene_case.h"
+#include "check/verdict/verdict.h"
 
 namespace plumbline::report {
 

@@ -1,5 +1,6 @@
 // Lights in eye space: their comparator, and who is named where they are wrong.
 #include "check/compare/compare_records.h"
+#include "check/judge/judge_records.h"
 #include "check/judge/stage_copy.h"
 #include "reference/arithmetic/light_bounds.h"
 #include "tests/check/judge/judge_fixtures.h"

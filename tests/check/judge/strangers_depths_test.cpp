@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "check/judge/scene_case.h"
+#include "check/judge/rows.h"
 #include "tests/check/fixtures.h"
 
 namespace plumbline::check {
@@ -51,8 +51,12 @@ struct DepthInDouble : testing::Test {
       candidate.planes.id.values()[i] = candidate.records.drawn[kPixels + i].drawn ? 1 : 0;
     }
     std::vector<Comparison> out;
-    Case c{scene, candidate, legal, exact.get(), out};
-    c.foreign = foreign;
+    const Case c{.scene = scene,
+                 .candidate = candidate,
+                 .legal = legal,
+                 .referee = exact.get(),
+                 .rows = out,
+                 .foreign = foreign};
     run_exact_stage(c, *exact, Stage::visibility, "exact");
     return out.at(0);
   }
@@ -126,9 +130,15 @@ TEST(TurnedOver, ARendererThatSnapsNothingInterpolatesBetweenItsOwnCorners) {
     const Legal none;
     const auto exact = exact::make_exact();
     std::vector<Comparison> out;
-    Case c{scene, candidate, none, exact.get(), out};
-    c.foreign = foreign;
-    c.conventions.subpixel_bits = bits;
+    Conventions conventions;
+    conventions.subpixel_bits = bits;
+    const Case c{.scene = scene,
+                 .candidate = candidate,
+                 .legal = none,
+                 .referee = exact.get(),
+                 .rows = out,
+                 .foreign = foreign,
+                 .conventions = conventions};
     run_exact_stage(c, *exact, Stage::depth, "exact");
     return out.at(0).outcome;
   };
@@ -150,8 +160,8 @@ TEST(ClearDepth, HalfWayBetweenTwoCodesMayBeEitherOfAStrangers) {
     candidate.planes.depth.values()[5] = code / 16777215;
     const Legal none;
     std::vector<Comparison> out;
-    Case c{scene, candidate, none, exact.get(), out};
-    c.foreign = foreign;
+    const Case c{
+        .scene = scene, .candidate = candidate, .legal = none, .referee = exact.get(), .rows = out, .foreign = foreign};
     run_exact_stage(c, *exact, Stage::merge, "exact");
     return out.at(0).outcome;
   };

@@ -4,6 +4,7 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/judge/judge.h"
+#include "check/judge/judge_records.h"
 #include "reference/exact/barycentric.h"
 #include "reference/exact/clip.h"
 #include "reference/exact/coverage.h"

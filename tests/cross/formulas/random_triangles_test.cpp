@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "check/judge/judge.h"
+#include "check/judge/judge_records.h"
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
 #include "tests/cross/random_scenes.h"

@@ -1,0 +1,94 @@
+#include "check/judge/captures.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "check/judge/stage_copy.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
+
+Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal, const Conventions& conventions) {
+  const RendererInfo info = renderer.info();
+  Request request{kGeometry, legal && info.legal, {}, {}};
+  request.conventions = conventions;
+  if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // which line covers what
+  if (is_referee(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
+  try {
+    return renderer.capture(scene, request);
+  } catch (const OverBudget&) {
+    request.legal = false;
+    return renderer.capture(scene, request);
+  }
+}
+
+}  // namespace
+
+bool more_than(std::uint64_t most_fragments, const Capture& capture) {
+  const auto& count = capture.planes.count.values();
+  return std::accumulate(count.begin(), count.end(), std::uint64_t{0}) > most_fragments;
+}
+
+Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments) {
+  try {
+    if (most_fragments != ~std::uint64_t{0}) {
+      Capture counted = candidate.capture(scene, {kGeometry, false, {}, {}});
+      if (more_than(most_fragments, counted)) return counted;
+    }
+    return candidate.capture(scene, {StageSet::all(), false, {}, {}});
+  } catch (const OverBudget&) {
+    return candidate.capture(scene, {kGeometry, false, {}, {}});
+  }
+}
+
+Answers ask_references(const Scene& scene, std::span<const Reference> references, bool legal,
+                       const Conventions& conventions) {
+  Answers out{std::vector<Capture>(references.size()), {}};
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    Renderer* const renderer = references[i].renderer;
+    out.refusals.push_back(renderer == nullptr ? Refusal{Outcome::missing, "not built in"} : refusal_of([&] {
+      out.captures[i] = capture_reference(scene, *renderer, legal, conventions);
+    }));
+  }
+  return out;
+}
+
+Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
+                        const Conventions& conventions) {
+  Request request{{}, true, {}, {}};
+  request.conventions = conventions;
+  request.planes = WantedPlanes::none;
+  const auto apart = [&](int x, int y) {
+    return std::ranges::any_of(theirs, [&](const Capture& c) {
+      return c.planes.id.size() == mine.planes.id.size() && c.planes.id(x, y) != mine.planes.id(x, y);
+    });
+  };
+  for (int y = 0; y < mine.planes.id.height(); ++y) {
+    for (int x = 0; x < mine.planes.id.width(); ++x) {
+      if (apart(x, y)) request.pixels.emplace_back(x, y);
+    }
+  }
+  if (request.pixels.empty()) return {};
+  try {
+    return oracle.capture(scene, request).legal;
+  } catch (const std::exception&) {  // it has nothing to say
+    return {};
+  }
+}
+
+Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown) {
+  Capture out;
+  for (std::size_t i = 0; shown.stages[i].shows; ++i) {
+    try {
+      copy_stage(static_cast<Stage>(i), candidate.run_stage(scene, static_cast<Stage>(i), out), out);
+    } catch (const std::exception& e) {
+      for (Ability& later : std::span(shown.stages).subspan(i)) later = {false, false, e.what()};
+    }
+  }
+  return out;
+}
+
+}  // namespace plumbline::check

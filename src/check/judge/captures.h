@@ -1,0 +1,64 @@
+// What the candidate and its references are asked for, so that a scene is judged.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capture/renderer.h"
+#include "check/judge/reference.h"
+#include "check/verdict/verdict.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+/// Why a renderer answered nothing: `missing`, `unsupported` (it threw Unsupported or OverBudget) or `failed`.
+struct Refusal {
+  Outcome outcome;
+  std::string why;
+};
+
+/// Calls ask(); the refusal, or nothing where it answered.
+template <class Ask>
+std::optional<Refusal> refusal_of(Ask ask) {
+  try {
+    ask();
+    return std::nullopt;
+  } catch (const Unsupported& e) {
+    return Refusal{Outcome::unsupported, e.what()};
+  } catch (const OverBudget& e) {
+    return Refusal{Outcome::unsupported, e.what()};
+  } catch (const std::exception& e) {
+    return Refusal{Outcome::failed, e.what()};
+  }
+}
+
+/// Whether the planes count more fragments than that.
+bool more_than(std::uint64_t most_fragments, const Capture& capture);
+
+/// The candidate's records and planes; without records of fragments where these are too many or do not fit the memory
+/// budget. Throws what Renderer::capture() throws.
+Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments);
+
+/// What each reference answered, in the references' order.
+struct Answers {
+  std::vector<Capture> captures;
+  std::vector<std::optional<Refusal>> refusals;
+};
+
+/// Of each reference: geometry records; coverage records where lines are drawn; planes, except of a referee and of an
+/// oracle that is not asked for legal answers; legal answers, where `legal` and they fit the budget.
+Answers ask_references(const Scene& scene, std::span<const Reference> references, bool legal,
+                       const Conventions& conventions);
+
+/// Legal answers at the pixels where a reference has another winner than the candidate; empty where the oracle fails.
+Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
+                        const Conventions& conventions);
+
+/// The records of the stages that `shown` shows, each run alone on those before it: of a candidate whose capture failed.
+Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown);
+
+}  // namespace plumbline::check
