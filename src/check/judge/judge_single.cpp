@@ -161,7 +161,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     }
   }
   if (foreign) leave_recipes_to_exact(verdict.comparisons);
-  settle_votes(verdict.comparisons);
+  settle_votes(verdict.comparisons, is_plain(*seen));
   if (drew && !shown.painters.empty() && shown[Stage::merge].shows)
     verdict.comparisons.push_back(judge_picture(scene, candidate, mine));
   verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -12,15 +12,15 @@ namespace {
 
 bool fails(const Comparison& row) { return row.outcome == Outcome::different || row.outcome == Outcome::failed; }
 
-// The independent voter behind a row. From texture on Embree shares exact's arithmetic of texels, light, fog, formats
+// The independent voter behind a row. From `shared` on Embree shares exact's arithmetic of texels, light, fog, formats
 // and blending (reference/arithmetic): one vote.
-std::string voice(const Comparison& row) {
+std::string voice(const Comparison& row, Stage shared) {
   const std::string& name = row.judge.reference;
-  return row.stage >= Stage::texture && name == "embree" ? "exact" : name;
+  return row.stage >= shared && name == "embree" ? "exact" : name;
 }
 
 // The voices that hold against `row`; none where it is not outvoted.
-std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Comparison>& rows) {
+std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Comparison>& rows, Stage shared) {
   std::set<std::string> against;
   std::string exact;
   for (const Comparison& other : rows) {
@@ -28,15 +28,15 @@ std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Compa
     if (!votes(other) || other.stage > row.stage || (own && other.stage == row.stage)) continue;
     if (fails(other)) return {};
     if (other.stage < row.stage || !holds(other.outcome)) continue;
-    if (other.judge.kind == Kind::per_stage) exact = voice(other);
-    against.insert(voice(other));
+    if (other.judge.kind == Kind::per_stage) exact = voice(other, shared);
+    against.insert(voice(other, shared));
   }
   return exact.empty() || against.size() < 2 ? std::set<std::string>() : against;
 }
 
 }  // namespace
 
-void settle_votes(std::vector<Comparison>& rows) {
+void settle_votes(std::vector<Comparison>& rows, bool plain) {
   std::vector<Comparison*> by_stage;  // a row disputed here no longer fails in later stages' votes
   for (Comparison& row : rows) by_stage.push_back(&row);
   std::ranges::stable_sort(by_stage, {}, &Comparison::stage);
@@ -44,9 +44,9 @@ void settle_votes(std::vector<Comparison>& rows) {
     Comparison& row = *each;
     if (!votes(row) || row.outcome != Outcome::different || row.judge.kind == Kind::per_stage) continue;
     if (row.measurement.max_ratio <= 1) continue;  // only the budget of ambiguity is exceeded: no value to contradict
-    const std::set<std::string> against = outvoted_by(row, rows);
+    const std::set<std::string> against = outvoted_by(row, rows, plain ? Stage::visibility : Stage::texture);
     if (against.empty()) continue;
-    to_dispute(row, fmt::format("outvoted: ours is right by {}, and by exact's arithmetic on its own records",
+    to_dispute(row, fmt::format("outvoted: the candidate is right by {}, and by exact's arithmetic on its own records",
                                 fmt::join(against, " and ")));
   }
 }

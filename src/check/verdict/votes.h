@@ -11,9 +11,10 @@ namespace plumbline::check {
 /// outvoted. At the row's stage exact, on the candidate's own records (Kind::per_stage), and another reference hold,
 /// and no other reference fails. At an earlier stage no row fails at all: exact only propagates an earlier error, so
 /// its agreement is no evidence. Rows of Kind::per_stage, and rows that exceed only a budget of ambiguity, stay as they
-/// are. Before texture Embree (by the formula of what is legal) and exact (by arithmetic on records) are two votes;
-/// from texture on Embree uses exact's arithmetic, too, and both are one vote.
-void settle_votes(std::vector<Comparison>& rows);
+/// are. Embree (by the formula of what is legal) and exact (by arithmetic on records) are two votes before texture; from
+/// there on Embree uses exact's arithmetic, too, and both are one vote. `plain` (scene.h, is_plain()): shade is the
+/// plane of attributes, of which they are still two.
+void settle_votes(std::vector<Comparison>& rows, bool plain = false);
 
 /// Rows of a candidate whose arithmetic is its own (Profile::foreign): a `different` row side by side, whose tolerance
 /// is that of one float recipe on both sides, becomes `unsupported` where exact judges the same stage and the stage

@@ -94,6 +94,17 @@ TEST(Votes, WhoSharesArithmeticIsOneVoice) {
   }
 }
 
+TEST(Votes, OfPlainDrawsShadeIsThePlaneOfAttributes) {
+  std::vector<Comparison> all = rows();
+  for (Comparison& c : std::span(all).first(3)) c.stage = Stage::shade;
+  settle_votes(all, true);
+  EXPECT_EQ(all[0].outcome, Outcome::dispute);
+  for (Comparison& c : std::span(all).first(3)) c.stage = Stage::visibility;
+  all[0].outcome = Outcome::different;
+  settle_votes(all, true);
+  EXPECT_EQ(all[0].outcome, Outcome::different);
+}
+
 TEST(Votes, WhatIsSettledStandsInNoLaterStagesWay) {
   std::vector<Comparison> all = {row("embree", Stage::visibility, Outcome::different),
                                  row("osmesa", Stage::visibility, Outcome::equal),
