@@ -29,25 +29,32 @@ double step_at(DepthFormat format, double unit, double z) {
 
 }  // namespace
 
-OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, DepthFormat format,
-                            const Conventions& conventions) {
+OffsetBounds polygon_offset(const Projected& scene, const Triangle& t, const PolygonOffset& offset) {
   if (offset == PolygonOffset{}) return {};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (t.flat) return {0, kInfinity};
   const double scale = range_scale(t), factor = offset.factor, units = offset.units;
+  const double z_ndc =  // largest; without a near and a far plane, a corner may lie beyond them
+      scene.depth_clamp ? std::max({1.0, std::abs(2 * t.z_min - 1), std::abs(2 * t.z_max - 1)}) : 1;
   const double corner_error =
-      kFloatRounding * (scale * t.roundings * (t.size.z + t.size.w) / (2 * t.w_min) + 3);  // as pixel_hit.cpp's
+      kFloatRounding * (scale * t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * t.w_min) + 3);  // as pixel_hit.cpp's
   // r depends on the largest depth of a piece's corners: corners of the triangle, or cuts.
   const double near = t.range.near, far = t.range.far;
-  double least = std::min(near, far), largest = std::max(near, far);
+  double least = scene.depth_clamp ? 0 : std::min(near, far),
+         largest = scene.depth_clamp ? kInfinity : std::max(near, far);
   if (t.ahead) {
     const double a = near + (far - near) * t.z_min, b = near + (far - near) * t.z_max;
     largest = std::min(largest, std::max(a, b) + corner_error);
     if (!t.cut) least = std::max(a, b) - corner_error;
   }
-  const double unit = format == DepthFormat::z16 ? conventions.offset_unit.y : conventions.offset_unit.x;
-  const double r_lo = step_at(format, unit, least), r_hi = step_at(format, unit, largest);
-  OffsetBounds out{0.5 * units * (r_lo + r_hi), 0.5 * std::abs(units) * (r_hi - r_lo)};
+  OffsetBounds out;
+  if (units != 0) {
+    if (scene.depth == DepthFormat::z32f && !std::isfinite(largest)) return {0, kInfinity};
+    const double unit =
+        scene.depth == DepthFormat::z16 ? scene.conventions.offset_unit.y : scene.conventions.offset_unit.x;
+    const double r_lo = step_at(scene.depth, unit, least), r_hi = step_at(scene.depth, unit, largest);
+    out = {0.5 * units * (r_lo + r_hi), 0.5 * std::abs(units) * (r_hi - r_lo)};
+  }
   if (factor == 0) return out;
   const double m = scale * std::max(std::abs(t.z_plane.x), std::abs(t.z_plane.y));
   const double slope = scale * std::hypot(t.z_plane.x, t.z_plane.y);

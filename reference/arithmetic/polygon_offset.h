@@ -5,12 +5,8 @@
 
 namespace plumbline::math {
 
-/// Interval middle +- half [window z]; half is infinite where the triangle has no reliable plane.
-struct OffsetBounds {
-  double middle = 0, half = 0;
-};
-/// The offset of a triangle that project() has set up. r of unorm formats is that of the conventions.
-OffsetBounds polygon_offset(const Triangle& triangle, const PolygonOffset& offset, DepthFormat format,
-                            const Conventions& conventions);
+/// The offset of a triangle, all else of which project() has set up; `half` is infinite where the triangle has no
+/// reliable plane. r of unorm formats is that of the conventions.
+OffsetBounds polygon_offset(const Projected& scene, const Triangle& triangle, const PolygonOffset& offset);
 
 }  // namespace plumbline::math

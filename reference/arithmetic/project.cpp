@@ -289,7 +289,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   const Widths width = widths(p_window, part.count, 2 * t.reach);
   t.altitude = t.cut ? width.pieces : width.whole;
   t.fat_altitude = t.cut ? width.fat : width.whole;
-  t.offset = polygon_offset(t, draw.polygon_offset, scene.depth, scene.conventions).middle;
+  t.offset = polygon_offset(scene, t, draw.polygon_offset);
   t.thin = t.flat || width.whole <= 2 * t.reach;
   const bool front = t.sign > 0;
   t.facing_kept = draw.cull == Cull::none || front == (draw.cull == Cull::back);

@@ -40,6 +40,11 @@ struct Corner {
 };
 
 /// One of the scene's triangles, with its planes and bounds where some legal renderer may draw it.
+/// A polygon offset is in [middle - half, middle + half] [window z].
+struct OffsetBounds {
+  double middle = 0, half = 0;
+};
+
 struct Triangle {
   std::array<std::uint32_t, 3> corner;  ///< indices into Projected::corners
   std::uint32_t draw = 0;
@@ -59,7 +64,7 @@ struct Triangle {
   double roundings = 0;             ///< k: a clip coordinate in float is within k u size of the one in double
   double w_min = 0, w_max = 0;      ///< over its visible part
   DepthRange range;                 ///< z_win = near + (far - near) z_view + offset
-  double offset = 0;                ///< the polygon offset
+  OffsetBounds offset;              ///< the polygon offset
   double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
   double altitude = 0;              ///< [pixels] least altitude of all pieces for which a renderer may set up a plane
   double fat_altitude = 0;  ///< altitude without pieces so thin that snapping may turn them, which lie along the border
@@ -70,7 +75,7 @@ struct Triangle {
 /// z_win of a triangle at z_view; the polygon offset is included.
 inline double to_window(const Triangle& t, double z_view) {
   const double near = t.range.near, far = t.range.far;
-  return near + (far - near) * z_view + t.offset;
+  return near + (far - near) * z_view + t.offset.middle;
 }
 /// Difference of window z per difference of z_view, as an absolute value.
 inline double range_scale(const Triangle& t) { return std::abs(double{t.range.far} - double{t.range.near}); }

@@ -8,7 +8,6 @@
 #include "reference/arithmetic/error_in_float.h"
 #include "reference/arithmetic/fog.h"
 #include "reference/arithmetic/light_bounds.h"
-#include "reference/arithmetic/polygon_offset.h"
 #include "reference/arithmetic/texture.h"
 
 namespace plumbline::math {
@@ -92,10 +91,10 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
 /// Sets the depth interval in the window, from that of z_view: two further roundings, unless the depth range is [0,1],
 /// whose rounding is counted already.
 /// `in_float`: error_in_float().
-void set_window_depth(const Triangle& t, const OffsetBounds& offset, bool clamps, double lo, double hi, double weight,
-                      double in_float, PixelHit& out) {
+void set_window_depth(const Triangle& t, bool clamps, double lo, double hi, double weight, double in_float,
+                      PixelHit& out) {
   const double moved = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
-  const double rounding = moved + offset.half + in_float;
+  const double rounding = moved + t.offset.half + in_float;
   const auto [low, high] = clamps ? std::minmax({double{t.range.near}, double{t.range.far}}) : std::pair(0.0, 1.0);
   out.win.z = to_window(t, out.view.z);
   if (clamps) out.win.z = std::clamp(out.win.z, low, high);
@@ -113,8 +112,9 @@ void set_window_depth(const Triangle& t, const OffsetBounds& offset, bool clamps
 
 /// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane are
 /// snapped alike, or by the plane's own error where only coverage is snapped; plus the corners' depth error.
-void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& offset, bool clamps, glm::dvec3 d,
-               const Place& at, glm::dvec2 moved, PixelHit& out) {
+void set_depth(const Projected& scene, const Triangle& t, glm::dvec3 d, const Place& at, glm::dvec2 moved,
+               PixelHit& out) {
+  const bool clamps = scene.depth_clamp;
   const double weight = snap_weight(scene, t, at, d, out.hit.certain);
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   PixelDepth& view = out.view;
@@ -129,7 +129,7 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
   }
   view.z = 0.5 + glm::dot(t.z_plane, d);
   view.slope = glm::dvec2(t.z_plane);
-  const double z_ndc = std::clamp(std::abs(2 * view.z - 1), 0.0, 1.0);
+  const double from_middle = std::abs(2 * view.z - 1), z_ndc = clamps ? from_middle : std::min(from_middle, 1.0);
   const double corner_error = kFloatRounding * (t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * w) + 1);
   view.half = glm::dot(glm::abs(view.slope), scene.step + weight * moved) + weight * corner_error;
   double lo = view.z - view.half, hi = view.z + view.half;
@@ -141,7 +141,7 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  set_window_depth(t, polygon_offset(t, offset, scene.depth, scene.conventions), clamps, lo, hi, weight,
+  set_window_depth(t, clamps, lo, hi, weight,
                    error_in_float(scene, t, d, piece_altitude(scene, t, at, d, out.hit.certain)), out);
 }
 
@@ -383,7 +383,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   // point.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.whole = t.facing_kept && !t.flat && !t.cut;
-  set_depth(projected, t, scene.draws[t.draw].polygon_offset, scene.depth_clamp, d, at, moved, out);
+  set_depth(projected, t, d, at, moved, out);
   out.whole = out.whole && !apart;
   const PixelDepth& view = out.view;
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
