@@ -179,16 +179,30 @@ bool outlined(const Mesh& mesh, const Draw& draw) {
 // Throws Unsupported if the view volume cuts an unfilled triangle. OpenGL 2.1, section 2.12: "edges introduced by
 // clipping are flagged as boundary". Mesa draws those made by user clip planes, but none made by the view volume; of
 // their corners, as points, one of two.
-void require_uncut(std::span<const FedTriangle> triangles) {
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const FedTriangle& t = triangles[i];
+[[noreturn]] void refuse_cut(std::uint32_t primitive) {
+  throw Unsupported(
+      fmt::format("Mesa draws no edges where the view volume cuts a triangle that is not filled, such as primitive {} "
+                  "(OpenGL 2.1, section 2.12: they are boundary edges)",
+                  primitive));
+}
+
+// `filled`: feedback of the triangles, filled.
+void require_uncut(std::span<const FedTriangle> filled) {
+  for (std::size_t i = 0; i < filled.size(); ++i) {
+    const FedTriangle& t = filled[i];
     // A cut very close to a corner has the corner's tag; then the fan shows the cut.
-    const bool fan = i > 0 && primitive_of(triangles[i - 1]) == primitive_of(t);
-    if (!fan && !std::any_of(t.v.begin(), t.v.end(), is_cut)) continue;
-    throw Unsupported(fmt::format(
-        "Mesa draws no edges where the view volume cuts a triangle that is not filled, such as primitive {} "
-        "(OpenGL 2.1, section 2.12: they are boundary edges)",
-        primitive_of(t)));
+    const bool fan = i > 0 && primitive_of(filled[i - 1]) == primitive_of(t);
+    if (fan || std::any_of(t.v.begin(), t.v.end(), is_cut)) refuse_cut(primitive_of(t));
+  }
+}
+
+// `outlines`: their edges or corners, of which Mesa leaves one out where two cuts have corners' tags and the fan is one
+// triangle.
+void require_three_each(std::span<const FedTriangle> outlines) {
+  for (std::size_t i = 0, end = 0; i < outlines.size(); i = end) {
+    const std::uint32_t primitive = primitive_of(outlines[i]);
+    while (end < outlines.size() && primitive_of(outlines[end]) == primitive) ++end;
+    if (outlines[i].corners < 3 && end - i != 3) refuse_cut(primitive);
   }
 }
 
@@ -293,6 +307,7 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<dou
         const SavedState outlines(gl);
         scene.set_fragments(i);
         triangles = fed();
+        require_three_each(triangles);
       }
       if (window) add_triangles(triangles, draw, records.triangles);
     }
