@@ -15,6 +15,9 @@ namespace plumbline::check {
 
 namespace {
 
+// Levels of detail below this one count as it: their texels are those of magnification.
+constexpr double kLeastLod = -16;
+
 // Rounding error of a level of detail in double, which shows where texel coordinates hardly change between pixels.
 class LodRounding {
  public:
@@ -33,8 +36,11 @@ class LodRounding {
     const PlaneValue plane = color_of_plane(t, c.x, c.y);
     const double rho =
         std::max(glm::length(size * Vec2<double>(plane.d_dx)), glm::length(size * Vec2<double>(plane.d_dy)));
-    const double error = glm::length(size * Vec2<double>(slope_rounding(t, c.x, c.y))) / (rho * std::log(2.0));
-    return std::isfinite(error) ? error : 0;
+    const double error = glm::length(size * Vec2<double>(slope_rounding(t, c.x, c.y)));
+    if (!std::isfinite(error) || !std::isfinite(rho)) return 0;
+    if (error < rho) return -std::log2(1 - error / rho);  // down to rho - error; up is less
+    // Nothing of rho but its rounding is known: either level is at most that of rho + error.
+    return std::max(0.0, std::log2(rho + error) + texture.sampler.lod_bias - kLeastLod);
   }
 
  private:
@@ -53,7 +59,6 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   }
   double magnitude = 1;
   for (const Texture& texture : scene.textures) magnitude = std::max(magnitude, largest_texel(texture));
-  constexpr double kLeast = -16;
   const LodRounding rounding(scene, candidate);
   Meter meter("u");
   for (std::size_t i = 0; i < count; ++i) {
@@ -65,12 +70,15 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
           lacks_lod ? outside(a.color[k], (*legal)[i].lo[k], (*legal)[i].hi[k]) : difference(a.color[k], b.color[k]);
       meter.value(off / (u * magnitude), factor, {c.x, c.y, c.triangle, "texel"}, a.color[k], b.color[k]);
     }
-    meter.item();
-    if (lacks_lod) continue;
-    const double lod = std::max(a.lod, kLeast), exact = std::max(b.lod, kLeast);
+    if (lacks_lod) {
+      meter.item();
+      continue;
+    }
+    const double lod = std::max(a.lod, kLeastLod), exact = std::max(b.lod, kLeastLod);
     const double unit = u * std::max(1.0, std::abs(exact));
     meter.value(difference(lod, exact) / unit, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
                 difference(lod, exact) <= factor * unit ? 0 : rounding(c) / unit);
+    meter.item();
   }
   return meter.done();
 }
