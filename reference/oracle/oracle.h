@@ -15,7 +15,7 @@ namespace plumbline::math {
 struct Oracle {
   Legal legal;
   /// The frame in double. A triangle covers a pixel where the pixel's centre is inside it in double (on an edge, by
-  /// TieRule::small_sides_in), no vertex snapped and no coordinate rounded; but where the declared grid and tie rule
+  /// tie rule left_bottom), no vertex snapped and no coordinate rounded; but where the declared grid and tie rule
   /// settle coverage (known_coverage.cpp), by these. Depth and colour are rounded to the frame's formats.
   Planes planes;
   /// Fragments of these planes at the pixels that the request names, row by row, each pixel's in draw order: triangles

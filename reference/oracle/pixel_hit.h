@@ -23,7 +23,7 @@ struct PixelDepth {
 /// A triangle that certainly or possibly covers a pixel.
 struct PixelHit {
   Hit hit;  ///< input of fold_hits()
-  /// In double, the pixel is covered (`covers` where it is known, else with ties by TieRule::small_sides_in), in depth
+  /// In double, the pixel is covered (`covers` where it is known, else with ties by rule left_bottom), in depth
   /// range, and not culled.
   bool inside = false;
   bool whole = false;    ///< not culled, and neither the near nor the far plane may cut the triangle here

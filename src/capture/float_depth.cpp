@@ -34,7 +34,7 @@ double sum_of(glm::dvec2 v) { return v.x + v.y; }
 
 }  // namespace
 
-double depth_by_edge_functions(const WindowCorners& corners, glm::dvec2 p) {
+double error_by_edge_functions(const WindowCorners& corners, glm::dvec2 p) {
   const Edges edges(corners);
   double out = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -46,7 +46,7 @@ double depth_by_edge_functions(const WindowCorners& corners, glm::dvec2 p) {
   return or_infinite(out);
 }
 
-double depth_by_plane(const WindowCorners& corners, glm::dvec2 p) {
+double error_by_plane(const WindowCorners& corners, glm::dvec2 p) {
   const Edges edges(corners);
   glm::dvec2 slope(0), farthest(0), from_corner(0), slope_terms(0);
   double most = 0;
@@ -66,7 +66,7 @@ double depth_by_plane(const WindowCorners& corners, glm::dvec2 p) {
                      (most + sum_of(glm::abs(slope) * (glm::abs(p) + farthest)) + sum_of(slope_error * from_corner)));
 }
 
-double depth_by_edge_equations(const WindowCorners& corners, glm::dvec2 p) {
+double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p) {
   const Edges edges(corners);
   double z = 0, out = 0, c_terms = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -83,8 +83,8 @@ double depth_by_edge_equations(const WindowCorners& corners, glm::dvec2 p) {
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p) {
   using enum Conventions::DepthArithmetic;
   if (arithmetic == in_double) return 0;
-  double out = std::max(depth_by_edge_functions(corners, p), depth_by_plane(corners, p));
-  if (arithmetic == in_float_from_origin) out = std::max(out, depth_by_edge_equations(corners, p));
+  double out = std::max(error_by_edge_functions(corners, p), error_by_plane(corners, p));
+  if (arithmetic == in_float_from_origin) out = std::max(out, error_by_edge_equations(corners, p));
   return kU * (out + 1);
 }
 

@@ -17,17 +17,17 @@ using WindowCorners = std::array<glm::dvec3, 3>;
 /// Error of sum z_i e_i / A at p [u of window z]. An edge function and the area are each the difference of two products
 /// of differences: 4 u of |first| + |second|. Quotient, product and sum: 4 u of |z_i e_i / A|. Beside a sliver's long
 /// edges nearly all of e_i and of A cancels. Infinite without area.
-double depth_by_edge_functions(const WindowCorners& corners, glm::dvec2 p);
+double error_by_edge_functions(const WindowCorners& corners, glm::dvec2 p);
 
 /// Error of z_0 + dz/dx x + dz/dy y at p [u of window z], z_0 at the window's origin: 4 u of the three terms'
 /// magnitudes at p and at the farthest corner, and the gradients' error over p's distance from the corners.
-double depth_by_plane(const WindowCorners& corners, glm::dvec2 p);
+double error_by_plane(const WindowCorners& corners, glm::dvec2 p);
 
 /// Error of a x + b y + c at p [u of window z], where a = sum z_i a_i / A, likewise b and c, and A = sum c_i; each c_i is
 /// x_j y_k - x_k y_j, whose terms are |x_j y_k| + |x_k y_j|. Five roundings on each way (difference, product, quotient,
 /// two sums), both ways: 10 u of (sum |z_i| (|a_i x| + |b_i y| + c_i's terms) + |z| sum of c_i's terms) / A. Small
 /// triangles far from the origin lose most.
-double depth_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
+double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
 /// Error of a depth at p [window z], and u for its code: a product and a sum, half a unit in the last place of a number
 /// below 1 each. in_double: 0. in_float: the larger of the first two. in_float_from_origin: of all three.

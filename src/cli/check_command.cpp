@@ -120,6 +120,64 @@ bool may_be_conventions(const CheckOptions& o, std::span<const check::SceneVerdi
   return all.differs > all.holds;
 }
 
+// What a run has come to.
+struct CheckRun {
+  report::RunHead head;
+  std::vector<check::SceneVerdict> verdicts;
+  std::vector<check::Settled> settled;
+  std::string failures;         // the diagnoses of scenes that do not hold
+  std::set<std::string> words;  // that verdicts refer to
+};
+
+// Judges the scenes, and prints each one's rows.
+void judge_all(const std::vector<Scene>& scenes, CheckRules& rules, CheckRun& run) {
+  const CheckOptions& o = rules.options;
+  fmt::print("{}", report::table_head());
+  const auto take = [&](JudgedScene judged) {
+    const check::SceneVerdict& verdict = run.verdicts.emplace_back(std::move(judged.verdict));
+    std::ranges::move(judged.settled, std::back_inserter(run.settled));
+    fmt::print("{}", report::table_rows(verdict));
+    std::fflush(stdout);
+    if (!o.rows.empty()) leave_rows(o.rows, verdict, judged.failure);
+    run.failures += judged.failure;
+    if (judged.drawing) rules.page->add(std::move(*judged.drawing));
+    run.head.versions.merge(judged.versions);
+  };
+  judge_in_workers(scenes, rules, run.words, take);
+  if (rules.kept) rules.kept->store.trim(kMostKept);
+}
+
+std::string summary_of(const CheckRules& rules, const CheckRun& run, bool holds, double seconds) {
+  const CheckOptions& o = rules.options;
+  std::string out = not_asked_line(o);
+  if (!o.candidate.command.empty()) {
+    out += convention_notes(o.candidate.conventions);
+    if (may_be_conventions(o, run.verdicts)) out += hint_of_conventions(o.candidate.conventions);
+    if (!can_confine()) out += "this kernel cannot confine where the program writes\n";
+  }
+  if (!o.expect.empty()) out += settled_line(run.settled, rules.expectations.size());
+  out += report::summary(run.verdicts, holds, seconds);
+  if (!holds && report::all_hold(run.verdicts)) out += "the scenes hold: FAILED by conventions or expectations alone\n";
+  return out;
+}
+
+// Writes the files that the options ask for.
+void write_outputs(CheckRules& rules, const CheckRun& run, const std::optional<report::Rubric>& rubric,
+                   const std::string& summary) {
+  const CheckOptions& o = rules.options;
+  const bool outside = !o.candidate.command.empty();
+  if (!o.json.empty()) report::write_json(o.json, run.verdicts, run.head);
+  if (!o.ledger.empty()) report::write_ledger(o.ledger, run.verdicts);
+  if (!o.junit.empty()) write_file(o.junit, report::junit(run.verdicts, run.head.failures));
+  if (!o.markdown.empty()) {
+    write_file(o.markdown, report::markdown(run.verdicts, lines_of(run.head.failures) + summary) +
+                               (outside ? report::conformance_markdown(run.verdicts) : "") +
+                               (rubric ? report::grades_markdown(*rubric, run.verdicts) : ""));
+  }
+  if (rubric) write_file(o.grades, report::gradescope_json(*rubric, run.verdicts));
+  if (rules.page) rules.page->write(outside ? report::conformance_text(run.verdicts) + summary : summary);
+}
+
 }  // namespace
 
 int check(const CheckOptions& given) {
@@ -152,55 +210,23 @@ int check(const CheckOptions& given) {
                             {"--grades", o.grades}};
   require_outputs(outputs, {"--report", o.report}, inputs_of(o, scenes));
   require_folders(o, scenes);
-  report::RunHead head{{}, o.fault, o.against, !o.golden.empty(), shard, {}};
+  CheckRun run{{{}, o.fault, o.against, !o.golden.empty(), shard, {}}, {}, {}, {}, {}};
   if (!o.golden.empty()) rules.goldens.emplace(o.golden, check::GoldenSet::Access::read);
   if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
   // A page shows what both sides drew, and a reference with a fault is none of this program's judges.
   const std::string cache = rules.page || !faulted_reference(o.fault).empty() ? "" : made_cache(o.cache);
   if (!cache.empty()) rules.kept = {check::VerdictStore(cache), judges_fingerprint(o), check::tried_at_random, began};
-  std::set<std::string> words;  // that verdicts refer to
-  std::vector<check::SceneVerdict> verdicts;
-  std::vector<check::Settled> settled;
-  std::string failures;
-  fmt::print("{}", report::table_head());
-  const auto take = [&](JudgedScene judged) {
-    const check::SceneVerdict& verdict = verdicts.emplace_back(std::move(judged.verdict));
-    std::ranges::move(judged.settled, std::back_inserter(settled));
-    fmt::print("{}", report::table_rows(verdict));
-    std::fflush(stdout);
-    if (!o.rows.empty()) leave_rows(o.rows, verdict, judged.failure);
-    failures += judged.failure;
-    if (judged.drawing) rules.page->add(std::move(*judged.drawing));
-    head.versions.merge(judged.versions);
-  };
-  judge_in_workers(scenes, rules, words, take);
-  if (rules.kept) rules.kept->store.trim(kMostKept);
+  judge_all(scenes, rules, run);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
-  for (const std::string& line : mistaken(conventions_of(o.candidate.conventions))) head.failures.push_back(line);
-  const bool holds = report::all_hold(verdicts) && head.failures.empty();
-  std::string summary = not_asked_line(o);
+  if (is_whole(o, run.verdicts)) run.head.failures = check::of_no_scene(rules.expectations, run.verdicts);
+  for (const std::string& line : mistaken(conventions_of(o.candidate.conventions))) run.head.failures.push_back(line);
+  const bool holds = report::all_hold(run.verdicts) && run.head.failures.empty();
   const bool outside = !o.candidate.command.empty();
-  if (outside) summary += convention_notes(o.candidate.conventions);
-  if (outside && may_be_conventions(o, verdicts)) summary += hint_of_conventions(o.candidate.conventions);
-  if (outside && !can_confine()) summary += "not refused by this kernel: what the program writes elsewhere\n";
-  if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
-  summary += report::summary(verdicts, holds, seconds);
-  if (!holds && report::all_hold(verdicts)) summary += "the scenes hold: FAILED by conventions or expectations alone\n";
-  const std::string of_run = lines_of(head.failures);
-  fmt::print("\n{}{}{}{}", failures, of_run,
-             outside ? report::conformance_text(verdicts) : report::group_lines(verdicts), summary);
-  if (!o.json.empty()) report::write_json(o.json, verdicts, head);
-  if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
-  if (!o.junit.empty()) write_file(o.junit, report::junit(verdicts, head.failures));
-  if (!o.markdown.empty()) {
-    write_file(o.markdown, report::markdown(verdicts, of_run + summary) +
-                               (outside ? report::conformance_markdown(verdicts) : "") +
-                               (rubric ? report::grades_markdown(*rubric, verdicts) : ""));
-  }
-  if (rubric) write_file(o.grades, report::gradescope_json(*rubric, verdicts));
-  if (rules.page) rules.page->write(outside ? report::conformance_text(verdicts) + summary : summary);
-  if (holds && !verdicts.empty() && !check::any_judged(verdicts)) {
+  const std::string summary = summary_of(rules, run, holds, seconds);
+  fmt::print("\n{}{}{}{}", run.failures, lines_of(run.head.failures),
+             outside ? report::conformance_text(run.verdicts) : report::group_lines(run.verdicts), summary);
+  write_outputs(rules, run, rubric, summary);
+  if (holds && !run.verdicts.empty() && !check::any_judged(run.verdicts)) {
     throw std::invalid_argument(outside ? "--program: expected a scene that it draws and that can be judged, found none"
                                         : "expected a scene that a reference can judge, found none");
   }

@@ -55,7 +55,7 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
   }
   require_program(o.candidate);
   const std::unique_ptr<Renderer> program = make_program(o.candidate);
-  Capture left = program->capture(scene, {StageSet::all(), false, {}, {}});
+  Capture left = program->capture(scene, {.records = StageSet::all()});
   return std::make_unique<LeftCapture>(std::move(left), program->info());
 }
 
@@ -154,8 +154,8 @@ std::string hint_where_unexplained(const DiagnoseOptions& o, const check::Diagno
   return "\nno known fault draws such a frame; " + hint_of_conventions(o.candidate.conventions);
 }
 
-// In a worker: writes the files, and returns the exit code, as one character, and the text.
-std::string diagnose_here(Subject& subject, const Watch& watch) {
+// In a worker: writes the files.
+DiagnosisAnswer diagnose_here(Subject& subject, const Watch& watch) {
   const DiagnoseOptions& o = subject.options;
   const Scene& scene = subject.scene;
   const bool outside = !o.folder.empty() || !o.candidate.command.empty();
@@ -166,7 +166,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   } catch (const Unsupported& e) {
     throw std::invalid_argument(fmt::format("{}: not judged: the program does not draw it: {}", scene.path, e.what()));
   } catch (const RendererFailed& e) {
-    return fmt::format("{}failed {}: {}\n", static_cast<int>(kDiffers), scene.path, e.what());
+    return {kDiffers, fmt::format("failed {}: {}\n", scene.path, e.what())};
   }
   const References references = make_references(without_repeats(o.against), o.scene_arguments.assets, watch);
   const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list, o.most_fragments);
@@ -202,7 +202,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   }
   const bool of_conventions_alone = holds(diagnosis) && !mistaken(candidate->info().conventions).empty();
   if (of_conventions_alone) out += "the stages hold; FAILED by the mistakes in the conventions\n";
-  return fmt::format("{}{}", static_cast<int>(holds(diagnosis) && !of_conventions_alone ? kHolds : kDiffers), out);
+  return {holds(diagnosis) && !of_conventions_alone ? kHolds : kDiffers, out};
 }
 
 // The plane of an image file, whose row 0 is the bottom one, in the scene's order of rows.
@@ -222,7 +222,7 @@ void require_size(const std::string& file, const Plane<T>& plane, const Scene& s
 
 int diagnose(const DiagnoseOptions& o) {
   if (!o.candidate.conventions.empty() && o.folder.empty() && o.candidate.command.empty())
-    throw std::invalid_argument("--conventions: expected --program or --capture, whose they are, found neither");
+    throw std::invalid_argument("--conventions: expected --program or --capture beside it, found neither");
   conventions_of(o.candidate.conventions);  // refuses what declares none
   if (!o.picture.empty()) return diagnose_picture(o);
   const Scene scene = o.scene_arguments.load(o.scene);
@@ -243,12 +243,13 @@ int diagnose(const DiagnoseOptions& o) {
   const auto make = [&](Progress& progress) -> Workers::Answer {
     return [&subject, &progress, &limits](const std::string& bytes) {
       const EndedSteps ended = request_of(bytes).ended;
-      return diagnose_here(subject, {&progress, &ended, limits.step});
+      return to_bytes(diagnose_here(subject, {&progress, &ended, limits.step}));
     };
   };
   const auto take = [&](std::size_t, const std::string& answer) {
-    code = answer.front() - '0';
-    fmt::print("{}", answer.substr(1));
+    const DiagnosisAnswer diagnosis = diagnosis_of(answer);
+    code = diagnosis.code;
+    fmt::print("{}", diagnosis.text);
   };
   const auto ask_again = [&](std::size_t, const WorkerEnd& end) {
     if (end.step == Progress::kBetween) throw std::runtime_error(fmt::format("{}: the diagnosis {}", o.scene, end.how));

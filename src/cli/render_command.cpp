@@ -91,7 +91,7 @@ int capture(const CaptureOptions& o) {
   const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
   const Scene scene = o.scene_arguments.load(o.scene);
   try {
-    write_capture(renderer->capture(scene, {StageSet::all(), false, {}, {}}), o.folder);
+    write_capture(renderer->capture(scene, {.records = StageSet::all()}), o.folder);
     return kHolds;
   } catch (const Unsupported& e) {
     std::fputs((std::string(e.what()) + "\n").c_str(), stderr);

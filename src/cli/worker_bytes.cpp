@@ -40,6 +40,19 @@ JudgeRequest request_of(std::string_view bytes) {
   return out;
 }
 
+std::string to_bytes(DiagnosisAnswer answer) {
+  ByteWriter writer;
+  visit_all(writer, answer.code, answer.text);
+  return writer.done();
+}
+
+DiagnosisAnswer diagnosis_of(std::string_view bytes) {
+  ByteReader reader(bytes, nullptr);
+  DiagnosisAnswer out;
+  visit_all(reader, out.code, out.text);
+  return out;
+}
+
 std::string to_bytes(JudgedScene scene, const CheckRules& rules) {
   ByteWriter writer;
   visit_scene(writer, scene, rules);

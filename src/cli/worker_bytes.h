@@ -18,6 +18,14 @@ struct JudgeRequest {
 std::string to_bytes(JudgeRequest request);
 JudgeRequest request_of(std::string_view bytes);
 
+/// A diagnosis: plumb's exit code and output.
+struct DiagnosisAnswer {
+  int code = 0;
+  std::string text;
+};
+std::string to_bytes(DiagnosisAnswer answer);
+DiagnosisAnswer diagnosis_of(std::string_view bytes);
+
 /// Leaves out the pixels that differ (Measurement::differing_at, disputed_at): pages are drawn before, by the worker.
 std::string to_bytes(JudgedScene scene, const CheckRules& rules);
 /// Inverse of to_bytes(). `words` receives the texts that the verdict points to (Place::field), and must outlive it.

@@ -19,7 +19,7 @@ struct Crossing {
 /// The weights of Moeller and Trumbore (1997), each by the two corners of an edge alone, as Woop, Benthin and Wald
 /// ("Watertight ray/triangle intersection", 2013) have it: a corner's position relative to the ray is rounded once,
 /// alike for all triangles that share the corner, and the sign of a weight is exact from there on. A ray through an
-/// edge or a corner counts as moved by e in x and e^2 in y, e infinitely small (stages.h, TieRule::small_sides_in): it
+/// edge or a corner counts as moved by e in x and e^2 in y, e infinitely small (stages.h, tie rule left_bottom): it
 /// crosses one of the triangles that meet there, whatever was rounded.
 std::optional<Crossing> crossing(const Ray& ray, const std::array<glm::dvec3, 3>& triangle);
 

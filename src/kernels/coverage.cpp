@@ -13,7 +13,7 @@ Edges edges_of(const WindowTriangle& triangle) {
     const glm::i64vec2 a = corner[i], d = corner[(i + 1) % 3] - a;
     edges.step_x[i] = -d.y * kSubpixel;
     edges.step_y[i] = d.x * kSubpixel;
-    // TieRule::small_sides_in: a step into the triangle is one to +x, or, at a horizontal edge, to +y.
+    // tie rule left_bottom: a step into the triangle is one to +x, or, at a horizontal edge, to +y.
     const bool owns_its_centres = d.y < 0 || (d.y == 0 && d.x > 0);
     edges.at_origin[i] = d.y * a.x - d.x * a.y - (owns_its_centres ? 0 : 1);
   }

@@ -34,7 +34,7 @@ class PipelineRenderer : public Renderer {
 
   RendererInfo info() const override {
     RendererInfo info{.name = name_, .version = PLUMBLINE_VERSION, .stages = {}, .profile = Profile::dialect};
-    info.conventions.tie_rule = Conventions::TieRule::left_bottom;  // TieRule::small_sides_in
+    info.conventions.tie_rule = Conventions::TieRule::left_bottom;
     for (Ability& ability : info.stages) ability = {true, true, ""};
     if (!paints_) return info;
     for (const SimdTarget& target : simd_targets()) info.painters.emplace_back(target.name);

@@ -22,7 +22,7 @@ namespace {
 const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
 
 Capture whole_capture(const Scene& scene) {
-  return pipeline::make_pipeline()->capture(scene, {StageSet::all(), false, {}, {}});
+  return pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
 }
 
 // The arrays that differ.

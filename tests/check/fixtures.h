@@ -98,7 +98,7 @@ inline constexpr auto kUnchanged = [](Records<double>&) {};
 
 /// Exact's capture of the scene, with the records of all stages.
 inline Capture exact_capture(const Scene& scene) {
-  return exact::make_exact()->capture(scene, {StageSet::all(), false, {}, {}});
+  return exact::make_exact()->capture(scene, {.records = StageSet::all()});
 }
 
 /// A window triangle of corners p_win (x, y [pixels], z [0, 1]) in red, green and blue, snapped to 1/256 pixel and

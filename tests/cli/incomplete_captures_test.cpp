@@ -142,7 +142,7 @@ const std::string kByExactAndEmbree = " --against exact";
 
 TEST_F(IncompleteCaptures, AreJudgedAsFarAsTheyGo) {
   const Scene scene = load_scene(kSharedEdges, {});
-  const Capture whole = pipeline::make_pipeline()->capture(scene, {StageSet::all(), false, {}, {}});
+  const Capture whole = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
   for (const Part& part : kParts) {
     SCOPED_TRACE(part.name);
     Capture capture;
@@ -162,7 +162,7 @@ TEST_F(IncompleteCaptures, AreJudgedAsFarAsTheyGo) {
 // compared.
 TEST_F(IncompleteCaptures, HaveNoJudgedWinnersOfLinesWithoutFragments) {
   const std::string lines = kScenes + "lines/star.json";
-  const Capture whole = pipeline::make_pipeline()->capture(load_scene(lines, {}), {StageSet::all(), false, {}, {}});
+  const Capture whole = pipeline::make_pipeline()->capture(load_scene(lines, {}), {.records = StageSet::all()});
   Capture capture;
   capture.renderer = "theirs";
   capture.version = "1";
@@ -191,7 +191,7 @@ TEST_F(IncompleteCaptures, MayLeaveOutWhatFollowsFromOthers) {
         std::tuple(kScenes + "texture/board_linear.json", Names{"texture.lod"}, "12 of 13 stages judged")}) {
     SCOPED_TRACE(path);
     const std::string folder = path.substr(path.rfind('/') + 1);
-    Capture capture = pipeline::make_pipeline()->capture(load_scene(path, {}), {StageSet::all(), false, {}, {}});
+    Capture capture = pipeline::make_pipeline()->capture(load_scene(path, {}), {.records = StageSet::all()});
     capture.renderer = "theirs";
     std::ranges::reverse(capture.records.polygons.polygons);
     write_capture(capture, at(folder));

@@ -23,9 +23,9 @@ TEST(SoftpipeChild, agrees_with_us_but_for_ties_that_it_breaks_otherwise) {
   const auto ours = pipeline::make_pipeline();
   for (const char* name : {"clip/each_plane", "light/sphere_gouraud", "depth/interpenetrating"}) {
     const Scene scene = load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/") + name + ".json", {});
-    const Capture theirs = child->capture(scene, {StageSet::all(), false, {}, {}});
+    const Capture theirs = child->capture(scene, {.records = StageSet::all()});
     EXPECT_EQ(theirs.renderer, "softpipe");
-    const Capture mine = ours->capture(scene, {StageSet::all(), false, {}, {}});
+    const Capture mine = ours->capture(scene, {.records = StageSet::all()});
     const check::Measurement m = check::compare_coverage(mine.planes, theirs.planes);
     EXPECT_TRUE(m.mismatch.empty()) << m.mismatch;
     EXPECT_LE(m.differing, m.items / 1000) << name;

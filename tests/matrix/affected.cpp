@@ -139,7 +139,7 @@ std::vector<glm::ivec2> no_pixels(const pipeline::WindowTriangle&, const pipelin
 
 // What the stages make of the scene: all records, and the frame's bits among the planes.
 std::uint64_t capture_bits(const Scene& scene, const Stages& stages) {
-  Request request{StageSet::all(), false, {}, {}};
+  Request request{.records = StageSet::all()};
   request.memory_budget = std::size_t{1} << 40;
   Capture capture;
   pipeline::Recorder records(scene, request, 0, capture);

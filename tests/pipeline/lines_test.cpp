@@ -217,7 +217,7 @@ TEST(PipelineLines, records_that_are_not_lines_are_refused) {
   scene.meshes = {mesh};
   scene.draws = {Draw{}};
   const auto ours = make_pipeline();
-  Capture in = ours->capture(scene, {StageSet::all(), false, {}, {}});
+  Capture in = ours->capture(scene, {.records = StageSet::all()});
   ASSERT_EQ(in.records.triangles.size(), 1u);
   EXPECT_NO_THROW(ours->run_stage(scene, Stage::coverage, in));
   for (const std::uint32_t corners : {0u, 4u}) {

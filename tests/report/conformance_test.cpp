@@ -126,7 +126,7 @@ TEST(Conformance, OfASuite) {
             "right or legal, and not judged: depth 1\n"
             "judged by the frame alone, wrong at the stage named or an earlier one: 1 (--each-primitive shows coverage "
             "and visibility)\n"
-            "wrong as by no known fault: 1\n");
+            "wrong, and no known fault matches: 1\n");
   const std::string markdown = conformance_markdown(verdicts);
   EXPECT_NE(markdown.find("| clip | 1 | 0 | 0 | 1 | 0 | 0 | depth 1 |\n"), std::string::npos) << markdown;
   for (const char* scene : {"clip/c", "clip/d"}) {
@@ -134,7 +134,7 @@ TEST(Conformance, OfASuite) {
     verdicts.back().causes = {"window (fault window.y_flipped)"};
   }
   const std::string causes =
-      "wrong as by window (fault window.y_flipped): 2, first clip/c\nwrong as by no known fault: 1\n";
+      "wrong as by window (fault window.y_flipped): 2, first clip/c\nwrong, and no known fault matches: 1\n";
   EXPECT_TRUE(conformance_text(verdicts).ends_with(causes)) << conformance_text(verdicts);
   EXPECT_EQ(whole_suite(verdicts).differs, 3u);
   SceneVerdict tied = verdict("clip/f", {kIllegal});

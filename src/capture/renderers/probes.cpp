@@ -144,7 +144,8 @@ void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture)
   std::size_t primitives = 0;
   for (const DrawRange& range : draw_ranges(scene)) primitives += range.primitive_count;
   if (primitives > kMostProbes) {
-    throw Unsupported(fmt::format("{} primitives, of which each were a picture: {} at most", primitives, kMostProbes));
+    throw Unsupported(
+        fmt::format("{} primitives: a picture of each, {} at most, would be needed", primitives, kMostProbes));
   }
   if (planes.count.empty() && planes.id_sum.empty()) {
     Plane<std::uint32_t> count(capture.width, capture.height);  // shown only if every picture is

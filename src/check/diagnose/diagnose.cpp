@@ -169,7 +169,7 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   const std::vector<glm::ivec2> pixels = worst_pixels(find.scene, pass.verdict);
   if (pixels.empty()) return;
   try {
-    const Capture mine = candidate.capture(find.scene, {StageSet::all(), false, {}, pixels});
+    const Capture mine = candidate.capture(find.scene, {.records = StageSet::all(), .pixels = pixels});
     const JudgeId name(find.referee.info().name, Kind::at_worst);
     const Case c = find.case_of(mine, pass.verdict.comparisons);
     if (lacks_fragment_records(mine)) return;

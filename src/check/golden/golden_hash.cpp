@@ -103,7 +103,7 @@ class StageHashers {
 };
 
 Capture all_that_fits(const Scene& scene, Renderer& renderer) {
-  Request request{StageSet::all(), false, {}, {}};
+  Request request{.records = StageSet::all()};
   try {
     return renderer.capture(scene, request);
   } catch (const OverBudget&) {

@@ -13,8 +13,7 @@ constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage
 
 Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal, const Conventions& conventions) {
   const RendererInfo info = renderer.info();
-  Request request{kGeometry, legal && info.legal, {}, {}};
-  request.conventions = conventions;
+  Request request{.records = kGeometry, .legal = legal && info.legal, .conventions = conventions};
   if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // which line covers what
   if (is_referee(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
   try {
@@ -35,12 +34,12 @@ bool more_than(std::uint64_t most_fragments, const Capture& capture) {
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments) {
   try {
     if (most_fragments != ~std::uint64_t{0}) {
-      Capture counted = candidate.capture(scene, {kGeometry, false, {}, {}});
+      Capture counted = candidate.capture(scene, {.records = kGeometry});
       if (more_than(most_fragments, counted)) return counted;
     }
-    return candidate.capture(scene, {StageSet::all(), false, {}, {}});
+    return candidate.capture(scene, {.records = StageSet::all()});
   } catch (const OverBudget&) {
-    return candidate.capture(scene, {kGeometry, false, {}, {}});
+    return candidate.capture(scene, {.records = kGeometry});
   }
 }
 
@@ -58,9 +57,7 @@ Answers ask_references(const Scene& scene, std::span<const Reference> references
 
 Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
                         const Conventions& conventions) {
-  Request request{{}, true, {}, {}};
-  request.conventions = conventions;
-  request.planes = WantedPlanes::none;
+  Request request{.legal = true, .planes = WantedPlanes::none, .conventions = conventions};
   const auto apart = [&](int x, int y) {
     return std::ranges::any_of(theirs, [&](const Capture& c) {
       return c.planes.id.size() == mine.planes.id.size() && c.planes.id(x, y) != mine.planes.id(x, y);

@@ -3,7 +3,7 @@
 //
 // Corners are snapped to 1/256 pixel, pixel (i, j)'s centre is at (256 i, 256 j), y counts up. A centre inside is
 // covered; one on an edge if the interior lies to its right (+x), or, where the edge is horizontal, above it (+y)
-// (stages.h, TieRule::small_sides_in). Each algorithm has its own form of that rule. Both windings cover the same
+// (stages.h, tie rule left_bottom). Each algorithm has its own form of that rule. Both windings cover the same
 // pixels; a triangle without area covers none.
 //
 // All four return the covered pixels of a width x height frame, ascending in y, then x. They throw std::out_of_range

@@ -213,7 +213,7 @@ std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
   }
   std::string out;
   for (const auto& [line, count] : by_count(causes)) out += fmt::format("{}: {}, first {}\n", line, count, first[line]);
-  return unknown == 0 ? out : out + fmt::format("wrong as by no known fault: {}\n", unknown);
+  return unknown == 0 ? out : out + fmt::format("wrong, and no known fault matches: {}\n", unknown);
 }
 
 std::string unable_line(std::span<const check::SceneVerdict> verdicts) {

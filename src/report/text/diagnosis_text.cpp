@@ -44,7 +44,7 @@ std::string first_line(const check::Diagnosis& diagnosis) {
   if (by.empty()) return fmt::format("{} (failed)", name_of(*diagnosis.first));
   const bool is_legal = check::differs_by_steps(diagnosis.verdict, *diagnosis.first) &&
                         check::is_legal(diagnosis.verdict, *diagnosis.first);
-  const std::string_view remark = is_legal ? "; legal: stepping in float makes as much, and the picture holds"
+  const std::string_view remark = is_legal ? "; within the error of stepping in float, and the frame is legal"
                                   : check::is_by_frame_alone(diagnosis.verdict)
                                       ? ", or an earlier one: the frame alone was judged"
                                       : "";

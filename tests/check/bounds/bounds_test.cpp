@@ -172,9 +172,9 @@ TEST(Bounds, OfDepthsInFloatHold) {
     Bound bound;
     double least;  // of the largest share of the bound
   };
-  for (const Case& of : {Case{test::FloatDepth::edge_functions, depth_by_edge_functions, 0.25},
-                         Case{test::FloatDepth::plane, depth_by_plane, 0.2},
-                         Case{test::FloatDepth::edge_equations, depth_by_edge_equations, 0.05}}) {
+  for (const Case& of : {Case{test::FloatDepth::edge_functions, error_by_edge_functions, 0.25},
+                         Case{test::FloatDepth::plane, error_by_plane, 0.2},
+                         Case{test::FloatDepth::edge_equations, error_by_edge_equations, 0.05}}) {
     Random r;
     Largest largest;
     for (int n = 0; n < 40000; ++n) {
@@ -194,7 +194,7 @@ TEST(Bounds, OfDepthsInFloatHold) {
     EXPECT_GE(largest.ratio, of.least) << static_cast<int>(of.way) << ": loose";
   }
   const WindowCorners none = {glm::dvec3(1, 1, 0.5), glm::dvec3(3, 3, 0.5), glm::dvec3(5, 5, 0.5)};
-  EXPECT_EQ(depth_by_edge_functions(none, {3, 3}), kInfinite) << "no area";
+  EXPECT_EQ(error_by_edge_functions(none, {3, 3}), kInfinite) << "no area";
 }
 
 // The bound of a piece within the window, wherever the piece lies, is no less than that of any such triangle.

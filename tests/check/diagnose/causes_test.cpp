@@ -169,7 +169,7 @@ TEST(Causes, EachThatCanBeMadeIsTold) {
                            "logic_op/gradients",
                            "masks/sixteen"}) {
     const Scene scene = passes_of(suite_scene(name))[0];
-    const Capture in = ours->capture(scene, {StageSet::all(), false, {}, {}});
+    const Capture in = ours->capture(scene, {.records = StageSet::all()});
     for (const KnownCause& h : all_causes()) {
       if (alone.contains(h.name) || h.shows != nullptr || (h.stage == Stage::texture && !textured(scene))) continue;
       Capture wrong = in;

@@ -168,7 +168,7 @@ TEST_F(Judge, ACandidateOfPlanesAloneIsJudgedByThem) {
 TEST_F(Judge, ACandidateOfAnotherSizeIsDifferentAndDoesNotCrash) {
   candidate.on_capture = [](Capture& c) {
     const Scene turned = two_draws(16, 24);
-    c = pipeline::make_pipeline()->capture(turned, {StageSet::all(), false, {}, {}});
+    c = pipeline::make_pipeline()->capture(turned, {.records = StageSet::all()});
   };
   for (const Reference& reference : {Reference{"witness", &witness}, Reference{"oracle", &oracle}}) {
     const Results results = run({reference});

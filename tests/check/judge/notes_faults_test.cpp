@@ -55,8 +55,8 @@ struct Drawn {
   Capture wrong, right;
   Drawn(std::string_view fault, const std::string& scene)
       : wrong(pipeline::make_pipeline(fault_of(fault).stages())
-                  ->capture(scenes().at(scene), {StageSet::all(), false, {}, {}})),
-        right(pipeline::make_pipeline()->capture(scenes().at(scene), {StageSet::all(), false, {}, {}})) {}
+                  ->capture(scenes().at(scene), {.records = StageSet::all()})),
+        right(pipeline::make_pipeline()->capture(scenes().at(scene), {.records = StageSet::all()})) {}
 };
 
 template <class T>

@@ -155,7 +155,7 @@ TEST(ClearDepth, HalfWayBetweenTwoCodesMayBeEitherOfAStrangers) {
   scene.frame.width = scene.frame.height = 4;
   scene.frame.clear_depth = 0.3;
   const auto exact = exact::make_exact();
-  Capture candidate = exact->capture(scene, {StageSet::all(), false, {}, {}});
+  Capture candidate = exact->capture(scene, {.records = StageSet::all()});
   const auto outcome = [&](double code, bool foreign) {
     candidate.planes.depth.values()[5] = code / 16777215;
     const Legal none;
@@ -178,7 +178,7 @@ TEST(ClearDepth, HalfWayBetweenTwoCodesMayBeEitherOfAStrangers) {
     EXPECT_EQ(outcome(kNaN, foreign), Outcome::different);
   }
   scene.frame.clear_depth = 0.30000001;
-  candidate = exact->capture(scene, {StageSet::all(), false, {}, {}});
+  candidate = exact->capture(scene, {.records = StageSet::all()});
   EXPECT_EQ(outcome(5033164, true), Outcome::different);
 }
 

@@ -112,7 +112,7 @@ TEST_F(KeptVerdicts, FallsByAnyBitOfTheCandidates) {
       name = one.name();
     };
     TracedRenderer traced(scene, candidate);
-    traced.capture(scene, {StageSet::all(), false, {}, {}});
+    traced.capture(scene, {.records = StageSet::all()});
     candidate.on_capture = flip;
     TracedRenderer now(scene, candidate);
     const bool same = now.answers_as_before(*traced.calls());
@@ -131,7 +131,7 @@ TEST_F(KeptVerdicts, FallsByAnyBitOfTheCandidates) {
   for (const auto& change : changes) {
     candidate.on_capture = change;
     TracedRenderer changed(scene, candidate);
-    changed.capture(scene, {StageSet::all(), false, {}, {}});
+    changed.capture(scene, {.records = StageSet::all()});
     candidate.on_capture = [](auto&) {};
     TracedRenderer now(scene, candidate);
     EXPECT_FALSE(now.answers_as_before(*changed.calls()));

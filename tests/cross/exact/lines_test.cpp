@@ -112,7 +112,7 @@ TEST(ExactLines, every_stage_of_random_outlines_holds) {
     draw.cull = seed % 5 == 4 ? Cull::front : Cull::none;
     draw.line_width = 1 + static_cast<int>(seed % 4);
     draw.point_size = 1 + static_cast<int>(seed);
-    const Capture capture = ours->capture(scene, {StageSet::all(), false, {}, {}});
+    const Capture capture = ours->capture(scene, {.records = StageSet::all()});
     EXPECT_GT(capture.records.covered.size(), 50u);
     for (const check::Comparison& c : check::judge_records(scene, capture, *exact)) {
       EXPECT_FALSE(check::is_failure(c.outcome))
@@ -128,7 +128,7 @@ TEST(ExactLines, every_stage_of_random_clouds_holds) {
   for (const Topology topology : {Topology::lines, Topology::points}) {
     for (unsigned seed = 0; seed < 12; ++seed) {
       const Scene scene = thin_cloud(topology, 400, seed);
-      const Capture capture = ours->capture(scene, {StageSet::all(), false, {}, {}});
+      const Capture capture = ours->capture(scene, {.records = StageSet::all()});
       EXPECT_GT(capture.records.covered.size(), 50u);
       for (const check::Comparison& c : check::judge_records(scene, capture, *exact)) {
         EXPECT_FALSE(check::is_failure(c.outcome))

@@ -24,7 +24,7 @@ TEST_P(RandomTriangles, every_stage_equals_exact_from_our_records) {
   std::uint64_t fragments = 0;
   for (int i = 0; i < kScenesPerKind / static_cast<int>(one_of(8)); ++i) {
     const Scene scene = random_scene(kind, kTrianglesPerScene, static_cast<std::uint64_t>(i) * 31 + GetParam());
-    const Capture capture = ours->capture(scene, {StageSet::all(), false, {}, {}});
+    const Capture capture = ours->capture(scene, {.records = StageSet::all()});
     for (const check::Comparison& c : check::judge_records(scene, capture, *exact)) {
       EXPECT_FALSE(check::is_failure(c.outcome))
           << scene.name << ": " << name_of(c.stage) << ": " << c.measurement.differing << " of " << c.measurement.items

@@ -13,7 +13,8 @@ namespace {
 void expect_equal_planes(const Scene& scene) {
   const pipeline::Frame frame = pipeline::render(scene);
   constexpr std::size_t kMost = std::size_t{2} << 30;  // all records of a million triangles
-  const Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet::all(), false, {}, {}, kMost});
+  const Capture capture =
+      pipeline::make_pipeline()->capture(scene, {.records = StageSet::all(), .memory_budget = kMost});
   const double scale = depth_scale(scene.frame.depth);
   const auto color_codes = static_cast<float>(color_scale(scene.frame.color));
   std::size_t differing = 0;

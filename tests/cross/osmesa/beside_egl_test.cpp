@@ -25,7 +25,7 @@ std::unique_ptr<Renderer> egl() {
 void compare_on(const std::vector<std::filesystem::path>& folders, std::size_t every = 1) {
   const auto osmesa = make_osmesa();
   const auto other = egl();
-  const Request all{StageSet::all(), false, {}, {}};
+  const Request all{.records = StageSet::all()};
   const auto files = find_scenes(folders);
   for (std::size_t i = 0; i < files.size(); i += every) {
     const auto& file = files[i];
@@ -71,7 +71,7 @@ TEST(OsmesaEgl, one_library_per_process) {
 // The comparison can fail: the same scene with one triangle less.
 TEST(OsmesaEgl, other_bits_are_seen) {
   Scene scene = load_scene(kScenes + "/clip/each_plane.json", {});
-  const Request all{StageSet::all(), false, {}, {}};
+  const Request all{.records = StageSet::all()};
   const Capture whole = egl()->capture(scene, all);
   EXPECT_EQ(whole.renderer, "egl");
   EXPECT_EQ(whole.version.find("llvmpipe"), 0u) << whole.version;

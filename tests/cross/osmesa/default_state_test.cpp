@@ -75,7 +75,7 @@ TEST(OsmesaDefaultState, a_blend_equation_of_alpha_alone_is_not_left) {
   Scene scene = pixel_scene(8, 8), before = scene;
   for (const float z : {0.0f, 0.5f}) add(scene, rectangle(1, 1, 7, 7, z));
   add(before, rectangle(1, 1, 7, 7, 0)).merge.blend.emplace().alpha.equation = BlendEquation::subtract;
-  const Request all{StageSet::all(), false, {}, {}};
+  const Request all{.records = StageSet::all()};
   const Capture fresh = make_opengl()->capture(scene, all);
   const auto used = make_opengl();
   used->capture(before, all);
@@ -101,7 +101,7 @@ Suite read_suite() {
 
 std::optional<Capture> capture(Renderer& osmesa, const Scene& scene) {
   try {
-    return osmesa.capture(scene, {StageSet::all(), false, {}, {}});
+    return osmesa.capture(scene, {.records = StageSet::all()});
   } catch (const Unsupported&) {
     return std::nullopt;
   }

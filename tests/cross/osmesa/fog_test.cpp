@@ -50,7 +50,7 @@ TEST(OsmesaFog, IsOfTheVerticesDistancesWhereAPrimitiveReachesBehindTheEye) {
   const auto mesa = make_opengl();
   const auto referee = exact::make_exact();
   const Capture theirs = mesa->capture(scene, {});
-  const Capture ours = referee->capture(scene, {StageSet::all(), false, {}, {}});
+  const Capture ours = referee->capture(scene, {.records = StageSet::all()});
   ASSERT_GT(ours.records.covered.size(), 1000u);
   const auto largest = [&](auto change) {
     const auto shaded = shaded_with(*referee, scene, ours, change);

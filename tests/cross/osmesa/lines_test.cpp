@@ -13,7 +13,7 @@
 namespace plumbline::test {
 namespace {
 
-const Request kRecords{StageSet::all(), false, {}, {}};
+const Request kRecords{.records = StageSet::all()};
 
 /// The pixels of each window line, in draw order. Lines that are wholly outside have no window line.
 std::vector<std::vector<glm::ivec2>> pixels_by_line(const Capture& capture) {
