@@ -67,7 +67,7 @@ struct Triangle {
   OffsetBounds offset;              ///< the polygon offset
   double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
   double altitude = 0;              ///< [pixels] least altitude of all pieces for which a renderer may set up a plane
-  double fat_altitude = 0;  ///< altitude without pieces so thin that snapping may turn them, which lie along the border
+  double fat_altitude = 0;  ///< likewise, of pieces above 2 reach: thinner ones may turn over, and lie along the border
   double reach = 0;         ///< [pixels] largest displacement of a vertex over its visible part
   double growth = 1;        ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
 };

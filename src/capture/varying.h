@@ -28,7 +28,8 @@ inline constexpr std::size_t kVaryings = kVaryingNames.size();
 inline constexpr std::array<Varying, kVaryings> kAllVaryings = {Varying::secondary,      Varying::back_color,
                                                                 Varying::back_secondary, Varying::texture,
                                                                 Varying::normal,         Varying::position};
-constexpr std::string_view name_of(Varying v) { return kVaryingNames[static_cast<std::size_t>(v)]; }
+constexpr std::size_t index_of(Varying v) { return static_cast<std::size_t>(v); }
+constexpr std::string_view name_of(Varying v) { return kVaryingNames[index_of(v)]; }
 
 /// Whether it is a colour that lighting makes: flat shading takes the provoking vertex' for every corner.
 constexpr bool is_lit(Varying v) { return v <= Varying::back_secondary; }
@@ -60,8 +61,8 @@ struct VaryingColumns {
 template <class T>
 class Varyings {
  public:
-  VaryingColumns<T>& operator[](Varying v) { return columns_[static_cast<std::size_t>(v)]; }
-  const VaryingColumns<T>& operator[](Varying v) const { return columns_[static_cast<std::size_t>(v)]; }
+  VaryingColumns<T>& operator[](Varying v) { return columns_[index_of(v)]; }
+  const VaryingColumns<T>& operator[](Varying v) const { return columns_[index_of(v)]; }
 
  private:
   std::array<VaryingColumns<T>, kVaryings> columns_;

@@ -44,8 +44,8 @@ struct SurfaceAttributes {
   Color<R> color;
   std::array<Color<R>, kVaryings> varyings;
   FilteredTexel<R> texel;
-  const Color<R>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
-  Color<R>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
+  const Color<R>& operator[](Varying v) const { return varyings[index_of(v)]; }
+  Color<R>& operator[](Varying v) { return varyings[index_of(v)]; }
 };
 
 /// Texture environment (OpenGL 2.1 spec, tables 3.22 and 3.23). `f`: the fragment's colour, `s`: the texture source,

@@ -50,7 +50,7 @@ template <class R>
   const Weights<R> k = weights<R>(of.perspective, at);
   out.color = mean<R>(of.attributes, k);
   for (const Varying v : s.surface->carried) {
-    out[v] = mean<R>(s.varyings[static_cast<std::size_t>(v)], k);
+    out[v] = mean<R>(s.varyings[index_of(v)], k);
   }
   if (s.surface->texture) {
     const Color<R>& st = out[Varying::texture];

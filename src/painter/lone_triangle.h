@@ -14,7 +14,7 @@ namespace plumbline::pipeline {
 /// corner 1's.
 inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
                                              Varying v) {
-  const Vec4<float>* column = painting.varyings[static_cast<std::size_t>(v)];
+  const Vec4<float>* column = painting.varyings[index_of(v)];
   const bool flat = draw.flat() && is_lit(v);
   return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
 }
@@ -36,7 +36,7 @@ inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const
   if (draw.surface == nullptr) return {};
   SurfaceSetup out{draw.surface, {}, {}};
   for (const Varying v : draw.surface->carried) {
-    out.varyings[static_cast<std::size_t>(v)] = attribute_setup(varying_of(painting, draw, t, v));
+    out.varyings[index_of(v)] = attribute_setup(varying_of(painting, draw, t, v));
   }
   if (draw.surface->texture) out.gradients = gradients;
   return out;

@@ -28,9 +28,9 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
     store_fours(four, to);
   };
   const auto store_varying = [&](Varying v, const Vec4<R>& four) {
-    store_beside(four, [&](std::size_t k) { return &work.varyings[static_cast<std::size_t>(v)][k].x; });
+    store_beside(four, [&](std::size_t k) { return &work.varyings[index_of(v)][k].x; });
   };
-  const auto carries = [&](Varying v) { return work.varyings[static_cast<std::size_t>(v)] != nullptr; };
+  const auto carries = [&](Varying v) { return work.varyings[index_of(v)] != nullptr; };
 
   const Vec3<R> p_model = Lanes<R>::load_threes(&work.mesh->positions[i].x);
   const Vec4<R> p_clip = product<R>(work.to_clip, p_model);
@@ -62,7 +62,7 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   if (carries(Varying::position)) store_varying(Varying::position, p_eye);
   if (carries(Varying::texture)) {
     for (std::size_t k = i; k < i + kLanes; ++k) {
-      work.varyings[static_cast<std::size_t>(Varying::texture)][k] = {work.mesh->texcoords[k], 0.0f, 1.0f};
+      work.varyings[index_of(Varying::texture)][k] = {work.mesh->texcoords[k], 0.0f, 1.0f};
     }
   }
   Color<R> color(work.color);

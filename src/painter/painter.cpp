@@ -185,7 +185,7 @@ void Painter::Memory::run_vertices(const Scene& scene) {
   std::uint8_t* outside_of = room_for(vertex_count, outside);
   carried(scene, carried_varyings);
   std::erase_if(carried_varyings, is_back);
-  for (const Varying v : carried_varyings) room_for(vertex_count, varyings[static_cast<std::size_t>(v)]);
+  for (const Varying v : carried_varyings) room_for(vertex_count, varyings[index_of(v)]);
   constexpr std::size_t kShare = 2048;
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
@@ -211,7 +211,7 @@ void Painter::Memory::run_vertices(const Scene& scene) {
     work.out = to + range.first_vertex;
     work.outside = outside_of + range.first_vertex;
     for (const Varying v : kAllVaryings) {
-      const auto i = static_cast<std::size_t>(v);
+      const auto i = index_of(v);
       if (!is_back(v) && carries(scene, draw, v)) work.varyings[i] = varyings[i].data() + range.first_vertex;
     }
     vertex_work.push_back(work);
@@ -233,7 +233,7 @@ void Painter::Memory::run_others(const Scene& scene) {
   if (triangles.empty()) return;
   const std::size_t all = vertex_count + 3 * triangles.size();
   room_for(all, vertices);
-  for (const Varying v : carried_varyings) room_for(all, varyings[static_cast<std::size_t>(v)]);
+  for (const Varying v : carried_varyings) room_for(all, varyings[index_of(v)]);
   for (std::size_t to = vertex_count, i = 0; to < all; ++to, ++i) {
     const ShadedTriangle& t = triangles[i / 3];
     const WindowVertex& v = t.v[i % 3];

@@ -204,7 +204,7 @@ template <class R, int kSampleCount>
                                                     LaneTriangles<R, kSampleCount>& out) {
   out.gradients.any = draw.surface != nullptr && draw.surface->texture;
   if (!out.gradients.any) return;
-  const Vec4<float>* const column = painting.varyings[static_cast<std::size_t>(Varying::texture)];
+  const Vec4<float>* const column = painting.varyings[index_of(Varying::texture)];
   const auto texcoords = [&](const PaintVertex* v) { return &column[v - painting.vertices].x; };
   Wide<R> of_s[3], of_t[3], inv_w[3];
   for (int k = 0; k < 3; ++k) {

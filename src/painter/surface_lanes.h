@@ -43,9 +43,9 @@ class SurfaceLanes {
         gradients_(lanes.gradients.of_all()),
         color_(colors_of<R>(lanes)) {
     for (const Varying v : surface_.carried) {
-      const Vec4<float>* const column = painting.varyings[static_cast<std::size_t>(v)];
+      const Vec4<float>* const column = painting.varyings[index_of(v)];
       const auto value_of = [&](const PaintVertex* vertex) { return &column[vertex - painting.vertices].x; };
-      varyings_[static_cast<std::size_t>(v)] = attribute_lanes<R>(corner, draw.flat() && is_lit(v), value_of);
+      varyings_[index_of(v)] = attribute_lanes<R>(corner, draw.flat() && is_lit(v), value_of);
     }
   }
 
@@ -57,7 +57,7 @@ class SurfaceLanes {
     const Weights<R> k{select(wanted, all.k1, R(0)), select(wanted, all.k2, R(0))};
     SurfaceAttributes<R> out;
     out.color = mean_of_lanes<R>(color_, k);
-    for (const Varying v : surface_.carried) out[v] = mean_of_lanes<R>(varyings_[static_cast<std::size_t>(v)], k);
+    for (const Varying v : surface_.carried) out[v] = mean_of_lanes<R>(varyings_[index_of(v)], k);
     if (surface_.texture) {
       const Color<R>& st = out[Varying::texture];
       out.texel.color = texel_color<R>(*surface_.texture, {st.r, st.g}, gradients<R>(gradients_, at, q));

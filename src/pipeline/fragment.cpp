@@ -16,11 +16,11 @@ TriangleSetup set_up(const Stages& stages, const ShadedTriangle& triangle, const
   };
   out.attributes[0] = attribute_setup(corners(0));
   for (const Varying v : surface.carried) {
-    const std::size_t i = 1 + static_cast<std::size_t>(v);
+    const std::size_t i = 1 + index_of(v);
     out.attributes[i] = attribute_setup(corners(i));
   }
   if (surface.texture) {
-    out.gradients = gradient_setup(triangle, corners(1 + static_cast<std::size_t>(Varying::texture)), planes);
+    out.gradients = gradient_setup(triangle, corners(1 + index_of(Varying::texture)), planes);
   }
   return out;
 }
@@ -30,7 +30,7 @@ SurfaceAttributes<float> interpolated(const Stages& stages, const Surface& surfa
   SurfaceAttributes<float> out{};
   out.color = stages.attributes(setup, setup.attributes[0], pixel);
   for (const Varying v : surface.carried) {
-    out[v] = stages.attributes(setup, setup.attributes[1 + static_cast<std::size_t>(v)], pixel);
+    out[v] = stages.attributes(setup, setup.attributes[1 + index_of(v)], pixel);
   }
   return out;
 }

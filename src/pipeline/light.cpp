@@ -30,8 +30,7 @@ void light(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights
   for (const Varying v : kAllVaryings) {
     if (!carries(scene, draw, v)) continue;
     if (is_lit(v)) {
-      light_part(scene, draw, mesh, {is_back(v), is_secondary(v)}, lights, vertices, 1 + static_cast<std::size_t>(v),
-                 added);
+      light_part(scene, draw, mesh, {is_back(v), is_secondary(v)}, lights, vertices, 1 + index_of(v), added);
       continue;
     }
     for (std::size_t i = 0; i < added.size(); ++i) {

@@ -27,8 +27,8 @@ struct Attributes : std::array<Vec4<float>, kAttributes> {
   using std::array<Vec4<float>, kAttributes>::operator[];
   Vec4<float>& color() { return front(); }
   const Vec4<float>& color() const { return front(); }
-  Vec4<float>& operator[](Varying v) { return (*this)[1 + static_cast<std::size_t>(v)]; }
-  const Vec4<float>& operator[](Varying v) const { return (*this)[1 + static_cast<std::size_t>(v)]; }
+  Vec4<float>& operator[](Varying v) { return (*this)[1 + index_of(v)]; }
+  const Vec4<float>& operator[](Varying v) const { return (*this)[1 + index_of(v)]; }
 };
 
 /// Vertex of a polygon of stage 3.

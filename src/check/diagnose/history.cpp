@@ -9,6 +9,7 @@
 
 #include "capture/by_conventions.h"
 #include "capture/fragment_outcomes.h"
+#include "check/judge/refusal.h"
 #include "check/judge/stage_inputs.h"
 #include "scene/antialias.h"
 #include "scene/draw_index.h"
@@ -278,20 +279,12 @@ PixelHistory history_of(const Scene& scene, const RendererInfo& info, const Capt
 
 // Calls ask(); where the renderer is missing or fails, puts a PixelHistory with the reason at each of the pixels.
 void account(const Reference& r, std::size_t pixels, auto ask, auto put) {
-  std::string absent = "missing: not built in";
-  try {
-    if (r.renderer != nullptr) return ask();
-  } catch (const Unsupported& e) {
-    absent = fmt::format("unsupported: {}", e.what());
-  } catch (const OverBudget& e) {
-    absent = fmt::format("unsupported: {}", e.what());
-  } catch (const std::exception& e) {
-    absent = fmt::format("failed: {}", e.what());
-  }
-  for (std::size_t i = 0; i < pixels; ++i) {
+  const std::optional<Refusal> refusal =
+      r.renderer == nullptr ? Refusal{Outcome::missing, "not built in"} : refusal_of(ask);
+  for (std::size_t i = 0; i < pixels && refusal; ++i) {
     PixelHistory none;
     none.renderer = r.name;
-    none.absent = absent;
+    none.absent = fmt::format("{}: {}", name_of(refusal->outcome), refusal->why);
     put(i, std::move(none));
   }
 }

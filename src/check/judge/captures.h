@@ -2,39 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "capture/renderer.h"
 #include "check/judge/reference.h"
-#include "check/verdict/verdict.h"
+#include "check/judge/refusal.h"
 #include "scene/scene.h"
 
 namespace plumbline::check {
-
-/// Why a renderer answered nothing: `missing`, `unsupported` (it threw Unsupported or OverBudget) or `failed`.
-struct Refusal {
-  Outcome outcome;
-  std::string why;
-};
-
-/// Calls ask(); the refusal, or nothing where it answered.
-template <class Ask>
-std::optional<Refusal> refusal_of(Ask ask) {
-  try {
-    ask();
-    return std::nullopt;
-  } catch (const Unsupported& e) {
-    return Refusal{Outcome::unsupported, e.what()};
-  } catch (const OverBudget& e) {
-    return Refusal{Outcome::unsupported, e.what()};
-  } catch (const std::exception& e) {
-    return Refusal{Outcome::failed, e.what()};
-  }
-}
 
 /// Whether the planes count more fragments than that.
 bool more_than(std::uint64_t most_fragments, const Capture& capture);

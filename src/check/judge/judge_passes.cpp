@@ -10,6 +10,7 @@
 #include "check/bounds/units.h"
 #include "check/compare/compare_bits.h"
 #include "check/judge/judge_records.h"
+#include "check/judge/refusal.h"
 #include "check/verdict/ledger.h"
 #include "reference/arithmetic/passes.h"
 #include "scene/antialias.h"
@@ -210,7 +211,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
     Renderer& renderer = *references[i].renderer;
     const RendererInfo info = renderer.info();
     const JudgeId name(info.name, is_referee(info) ? Kind::per_stage : info.legal ? Kind::legal : Kind::side_by_side);
-    try {
+    const std::optional<Refusal> refusal = refusal_of([&] {
       if (is_referee(info) && mine) {
         const Capture made = renderer.run_stage(scene, Stage::resolve, *mine);
         const Tolerance& row = tolerance(Profile::exact, Stage::resolve);
@@ -220,22 +221,16 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
       }
       if (!info[Stage::resolve].shows) skip(name, Outcome::unsupported, info[Stage::resolve].reason);
       const bool compared = mine && info[Stage::resolve].shows && !is_referee(info);
-      if (!compared) continue;
+      if (!compared) return;
       theirs[i] = renderer.capture(scene, Request{});
       require_samples(scene, theirs[i].samples);
       if (scene.frame.color == ColorFormat::rgba12 && !info.legal) {
-        skip(name, Outcome::unsupported, "asked for 12 bits a channel, OpenGL gives 16");
-        continue;
+        return skip(name, Outcome::unsupported, "asked for 12 bits a channel, OpenGL gives 16");
       }
       verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve,
                                            compare_frames(scene, *mine, theirs[i], disputed_by(info.name, passes))));
-    } catch (const Unsupported& e) {
-      skip(name, Outcome::unsupported, e.what());
-    } catch (const OverBudget& e) {
-      skip(name, Outcome::unsupported, e.what());
-    } catch (const std::exception& e) {
-      skip(name, Outcome::failed, e.what());
-    }
+    });
+    if (refusal) skip(name, refusal->outcome, refusal->why);
   }
   if (mine && !candidate.info().painters.empty()) verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
   if (drawn != nullptr) {

@@ -1,0 +1,34 @@
+// Why a renderer answered nothing.
+#pragma once
+
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "capture/renderer.h"
+#include "check/verdict/verdict.h"
+
+namespace plumbline::check {
+
+/// `missing` (not built in), `unsupported` (it threw Unsupported or OverBudget) or `failed`.
+struct Refusal {
+  Outcome outcome;
+  std::string why;
+};
+
+/// Calls ask(); the refusal, or nothing where it answered.
+template <class Ask>
+std::optional<Refusal> refusal_of(Ask ask) {
+  try {
+    ask();
+    return std::nullopt;
+  } catch (const Unsupported& e) {
+    return Refusal{Outcome::unsupported, e.what()};
+  } catch (const OverBudget& e) {
+    return Refusal{Outcome::unsupported, e.what()};
+  } catch (const std::exception& e) {
+    return Refusal{Outcome::failed, e.what()};
+  }
+}
+
+}  // namespace plumbline::check
