@@ -48,10 +48,11 @@ enum class WantedPlanes {
 
 /// What to capture. Records and the legal answers on demand.
 struct Request {
-  StageSet records;                       ///< stages whose records are wanted
-  bool legal = false;                     ///< an oracle's legal answers; of `pixels` at least
-  std::vector<std::uint32_t> primitives;  ///< only these primitives' records, ascending; empty: all. Planes show all.
-  std::vector<glm::ivec2> pixels;         ///< only these pixels' fragments (stages 5 to 10); empty: all
+  StageSet records = {};  ///< stages whose records are wanted
+  bool legal = false;     ///< an oracle's legal answers; of `pixels` at least
+  std::vector<std::uint32_t> primitives =
+      {};                               ///< only these primitives' records, ascending; empty: all. Planes show all.
+  std::vector<glm::ivec2> pixels = {};  ///< only these pixels' fragments (stages 5 to 10); empty: all
   std::size_t memory_budget = std::size_t{512} << 20;  ///< bytes a capture may take
   WantedPlanes planes = WantedPlanes::all;
   std::string painter = {};      ///< one of info().painters, where planes is `picture`; empty: the one that ships
@@ -62,7 +63,7 @@ struct Request {
 struct Ability {
   bool shows = false;         ///< capture() hands the stage's records or planes out
   bool runs = false;          ///< run_stage() serves the stage
-  std::string reason;         ///< why not, where neither
+  std::string reason = {};    ///< why not, where neither
   bool planes_alone = false;  ///< the capture holds planes of the stage, and no records
   bool given = false;         ///< not shown: the capture's records are those that the renderer was given (--from)
   bool contradicted = false;  ///< other arrays contradict the stage's arrays (`reason`): outcome `failed`

@@ -125,7 +125,7 @@ fs::path pass_folder(std::size_t pass) { return fmt::format("pass{}", pass); }
 void add_files(const fs::path& folder, const fs::path& inside, std::set<fs::path>& names) {
   const JsonFile file(folder / inside / "manifest.json");
   const JsonNode root = file.root();
-  if (root["format"].text() != kFormat) root["format"].refuse(fmt::format("\"{}\"", kFormat));
+  root.require_format(kFormat);
   names.insert(inside / "manifest.json");
   for (const JsonNode& array : root["arrays"].elements(0, SIZE_MAX)) names.insert(inside / array["file"].text());
   if (const auto passes = root.find("passes")) {

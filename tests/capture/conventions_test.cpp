@@ -63,6 +63,8 @@ TEST_F(ConventionsFile, WhatIsWrongIsRefusedWithItsPlace) {
   EXPECT_NE(refusal(head + R"("offset_unit": [2, -1]})").find("/offset_unit/1"), std::string::npos);
   EXPECT_NE(refusal(R"({"format": "plumbline goldens", "version": 1})").find("/format"), std::string::npos);
   EXPECT_NE(refusal(R"({"format": "plumbline conventions", "version": 2})").find("/version"), std::string::npos);
+  EXPECT_NE(refusal(R"({"camera": {}})").find("\"format\": \"plumbline conventions\", found no such key"),
+            std::string::npos);
   EXPECT_THROW(read_conventions(root_ / "nothing.json"), JsonError);
 }
 

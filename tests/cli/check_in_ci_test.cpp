@@ -79,7 +79,7 @@ TEST_F(CheckInCi, shards_come_to_the_whole_run) {
   write(at("bad.json"), "{\"versions\": 1}");
   const Outcome bad = plumb("report diff " + at("whole.json") + " " + at("bad.json"));
   EXPECT_EQ(bad.code, 2);
-  EXPECT_TRUE(bad.says("bad.json: at \"/")) << bad.text;
+  EXPECT_TRUE(bad.says("bad.json: expected a file of \"format\": \"plumbline run\"")) << bad.text;
   EXPECT_EQ(plumb("report").code, 2);
   EXPECT_EQ(plumb("report merge " + at("1.json") + " -o " + at("1.json")).code, 2) << "it is read by this run";
 }

@@ -42,8 +42,8 @@ Conventions read_conventions(const std::filesystem::path& path) {
   each_number_of_bits([&](const ConventionWords& words, auto) { names.push_back(words.name); });
   std::vector<std::string_view> keys = names;
   keys.insert(keys.end(), {"format", "version", "open", "unexplained"});
+  root.require_format(kConventionsFormat);
   root.only(keys);
-  if (root["format"].text() != kConventionsFormat) root["format"].refuse(fmt::format("\"{}\"", kConventionsFormat));
   root["version"].integer(1, 1);
   Conventions out;
   if (const auto node = root.find("sample")) out.sample = node->vector<2>(0, 1);

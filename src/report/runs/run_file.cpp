@@ -124,8 +124,8 @@ CheckRun read_run(const std::filesystem::path& path) {
   run.file = path.string();
   const JsonValue value = read_json_file(path, run.file, kMostBytes);
   const JsonNode root(value, "");
-  if (const auto n = root.find("version")) n->integer(1, 1);  // plumbline 0.1 wrote neither
-  if (const auto n = root.find("format"); n && n->text() != "plumbline run") n->refuse("\"plumbline run\"");
+  if (const auto n = root.find("version")) n->integer(1, 1);
+  if (!root.find("comparisons") || root.find("format")) root.require_format("plumbline run");  // 0.1 wrote none
   root.only({"format", "version", "versions", "fault", "against", "golden", "failures", "tolerances", "shard", "scenes",
              "comparisons"});
   const JsonNode versions = root["versions"], tolerances = root["tolerances"];

@@ -85,6 +85,12 @@ void JsonNode::only(std::span<const std::string_view> keys) const {
   }
 }
 
+void JsonNode::require_format(std::string_view name) const {
+  const auto format = find("format");
+  if (!format) refuse(fmt::format("a file of \"format\": \"{}\"", name), "no such key");
+  if (format->text() != name) format->refuse(fmt::format("\"{}\"", name));
+}
+
 std::string_view JsonNode::one_of(std::initializer_list<std::string_view> keys) const {
   only(keys);
   if (value_->members.size() != 1) {

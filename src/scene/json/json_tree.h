@@ -50,6 +50,8 @@ class JsonNode {
   /// Requires an object all of whose keys are among `keys`.
   void only(std::span<const std::string_view> keys) const;
   void only(std::initializer_list<std::string_view> keys) const { only(std::span(keys.begin(), keys.size())); }
+  /// Requires an object whose key `format` is `name`.
+  void require_format(std::string_view name) const;
   /// Requires an object of exactly one key, one of `keys`; returns the key.
   std::string_view one_of(std::initializer_list<std::string_view> keys) const;
   JsonNode operator[](std::string_view key) const;           ///< the member of an object, which must have it
