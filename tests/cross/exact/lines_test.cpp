@@ -32,29 +32,30 @@ std::vector<glm::vec3> random_ends(int lines, RandomThings& random) {
   return ends;
 }
 
+// Fragments of the pipeline, which covers the same pixels as exact does from its window records.
+std::size_t fragments_alike(const Scene& scene) {
+  const Capture capture = pipeline::make_pipeline()->capture(
+      scene, {.records = {Stage::matrices, Stage::clip, Stage::window, Stage::coverage}});
+  const Capture judged = exact::make_exact()->run_stage(scene, Stage::coverage, capture);
+  const check::Measurement m = check::compare_covered(capture.records, judged.records);
+  EXPECT_EQ(m.differing, 0u) << to_string(m.worst.place);
+  EXPECT_EQ(check::compare_coverage(capture.planes, judged.planes).differing, 0u);
+  return capture.records.covered.size();
+}
+
 TEST(ExactLines, a_hundred_thousand_random_lines_cover_the_same_pixels) {
   RandomThings random(1);
-  const auto ours = pipeline::make_pipeline();
-  const auto exact = exact::make_exact();
   std::size_t fragments = 0;
   for (int i = 0; i < 50; ++i) {
     Scene scene = pixel_scene(64, 64);
     add(scene, thin_mesh(Topology::lines, random_ends(2000, random)));
-    const Capture capture =
-        ours->capture(scene, {{Stage::matrices, Stage::clip, Stage::window, Stage::coverage}, false, {}, {}});
-    const Capture judged = exact->run_stage(scene, Stage::coverage, capture);
-    const check::Measurement m = check::compare_covered(capture.records, judged.records);
-    ASSERT_EQ(m.differing, 0u) << to_string(m.worst.place);
-    ASSERT_EQ(check::compare_coverage(capture.planes, judged.planes).differing, 0u);
-    fragments += capture.records.covered.size();
+    fragments += fragments_alike(scene);
   }
   EXPECT_GT(fragments, 900'000u);
 }
 
 TEST(ExactLines, wide_lines_and_large_points_cover_the_same_pixels) {
   RandomThings random(3);
-  const auto ours = pipeline::make_pipeline();
-  const auto exact = exact::make_exact();
   for (int i = 0; i < 40; ++i) {
     Scene scene = pixel_scene(70, 66);
     Draw& lines = add(scene, thin_mesh(Topology::lines, random_ends(60, random)));
@@ -62,12 +63,7 @@ TEST(ExactLines, wide_lines_and_large_points_cover_the_same_pixels) {
     Draw& points = add(scene, thin_mesh(Topology::points, random_ends(60, random)));
     points.point_size = 1 + random.below(64);
     points.scissor = Scissor{3, 5, 60, 50};
-    const Capture capture =
-        ours->capture(scene, {{Stage::matrices, Stage::clip, Stage::window, Stage::coverage}, false, {}, {}});
-    const Capture judged = exact->run_stage(scene, Stage::coverage, capture);
-    const check::Measurement m = check::compare_covered(capture.records, judged.records);
-    ASSERT_EQ(m.differing, 0u) << to_string(m.worst.place);
-    ASSERT_EQ(check::compare_coverage(capture.planes, judged.planes).differing, 0u);
+    fragments_alike(scene);
   }
 }
 

@@ -14,8 +14,8 @@
 #include "faults/legal.h"
 #include "matrix/report.h"
 #include "pipeline/stages.h"
-#include "scene/antialias.h"
 #include "scene/file/scene_file.h"
+#include "tests/scene_work.h"
 
 namespace plumbline::matrix {
 
@@ -41,16 +41,6 @@ std::vector<Scene> load(const std::filesystem::path& folder, bool models) {
   std::vector<Scene> out;
   for (const auto& file : find_scenes({&folder, 1})) {
     if (models || file.parent_path().stem() != "models") out.push_back(load_scene(file));
-  }
-  return out;
-}
-
-// About what it takes to draw it and to judge it.
-std::size_t work_of(const Scene& scene) {
-  std::size_t out = 0;
-  for (const Scene& pass : passes_of(scene)) {
-    const std::size_t pixels = static_cast<std::size_t>(pass.frame.width) * static_cast<std::size_t>(pass.frame.height);
-    for (const Draw& draw : pass.draws) out += pixels + 50 * pass.meshes[draw.mesh].triangles.size();
   }
   return out;
 }
@@ -185,7 +175,7 @@ std::vector<Row> of_legal(const std::vector<Scene>& scenes, const Extent& extent
 Matrix matrix_of(const std::filesystem::path& folder, const Extent& extent, unsigned workers) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<Scene> scenes = load(folder, extent.models);
-  if (extent.until_seen) std::ranges::stable_sort(scenes, {}, work_of);
+  if (extent.until_seen) std::ranges::stable_sort(scenes, {}, test::work_of);
   Matrix out;
   for (const Scene& scene : scenes) out.scenes.push_back(scene.name);
   out.faults = of_faults_and_pairs(scenes, extent, workers, out.pairs);

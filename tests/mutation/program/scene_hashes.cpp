@@ -17,8 +17,8 @@
 #include "check/golden/golden_hash.h"
 #include "mutation/program/random_scenes.h"
 #include "renderers/pipeline_renderer.h"
-#include "scene/antialias.h"
 #include "scene/file/scene_file.h"
+#include "tests/scene_work.h"
 
 namespace plumbline::mutation {
 namespace {
@@ -26,16 +26,6 @@ namespace {
 // Time limit of a scene; the slowest takes 2 s on an idle machine, 20 s on a busy one.
 constexpr std::chrono::seconds kMostTime{60};
 constexpr int kMostFailed = 3;
-
-// Pixels of each draw, and a triangle as 50 of them.
-std::size_t work_of(const Scene& scene) {
-  std::size_t out = 0;
-  for (const Scene& pass : passes_of(scene)) {
-    const std::size_t pixels = static_cast<std::size_t>(pass.frame.width) * static_cast<std::size_t>(pass.frame.height);
-    for (const Draw& draw : pass.draws) out += pixels + 50 * pass.meshes[draw.mesh].triangles.size();
-  }
-  return out;
-}
 
 template <class T>
 void add(check::Hasher& hasher, const Plane<T>& plane) {
@@ -66,7 +56,7 @@ std::string hashes_of(const Scene& scene) {
 }
 
 std::string line_of(const Scene& scene, const std::string& fields) {
-  return fmt::format("{}\t{}{}\n", scene.name, work_of(scene), fields);
+  return fmt::format("{}\t{}{}\n", scene.name, test::work_of(scene), fields);
 }
 std::string failed(const std::string& why) { return "\tfailed\t" + why; }
 
