@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reference/oracle/pixel_hit.h"
+#include "reference/oracle/pixel_site.h"
 
 namespace plumbline::math {
 

@@ -44,6 +44,9 @@ enum class Colors { now, asked };
 std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected, std::uint32_t primitive, int px,
                                   int py, Colors colors = Colors::now);
 
+class PixelSite;
+/// Sets the hit's colour, and the colour's bound, at its site.
+void set_color(const Scene& scene, const PixelSite& site, PixelHit& hit);
 /// Computes the colour of a hit at its pixel, and the colour's bound, unless PixelHit::colored.
 void color_hit(const Scene& scene, const Projected& projected, int px, int py, PixelHit& hit);
 
@@ -52,23 +55,11 @@ void color_hit(const Scene& scene, const Projected& projected, int px, int py, P
 void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
                PixelHit& out);
 
-/// Whether a sample on an edge belongs to the triangle that lies in the direction `inward` from the edge.
-bool owns_ties(Conventions::TieRule rule, glm::dvec2 inward);
 /// PixelHit::covers of a triangle that comes near the pixel.
 std::optional<bool> known_coverage(const Projected& projected, const Triangle& t, int px, int py);
 /// Applies PixelHit::covers to the hits of one pixel, after form_groups(): makes hits that cover certain, removes those
 /// that do not, and dissolves groups of which a member covers, or, by an exclusive rule, all groups.
 void settle_coverage(Conventions::TieRule tie_rule, std::vector<PixelHit>& hits);
-
-/// Distance of a window point d from a triangle's edge from corner j to corner k, as far as the edge is in front of the
-/// eye; infinite where it is not.
-struct EdgeDistance {
-  double pixels;
-  glm::dvec3 d_nearest;  ///< the point of the edge nearest to d
-  double w;              ///< clip w there
-};
-/// `n`: v_j x v_k.
-EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d);
 
 /// Finds sets of possible hits that together certainly cover the pixel, and numbers them (Hit::group).
 /// Returns the number of sets. `hits` are those of one pixel.

@@ -53,7 +53,7 @@ TEST_F(Cli, program_of_a_suite_ends_with_a_row_per_feature) {
   EXPECT_EQ(all.failed, 0);
   EXPECT_EQ(tally(run, "fog").unable, 12);
   EXPECT_EQ(tally(run, "clip").right, 18);
-  EXPECT_TRUE(run.says("every pixel has several legal answers ")) << "clip/along_the_far_plane";
+  EXPECT_TRUE(run.says("every colour has several legal answers ")) << "clip/along_the_far_plane";
   EXPECT_TRUE(run.says("unable: texture ")) << run.text;
 }
 

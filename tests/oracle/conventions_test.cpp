@@ -161,6 +161,30 @@ TEST(OracleConventions, WithoutPerspectiveColoursGoByTheWindow) {
   EXPECT_NEAR(legal(scene, {}).at(16, 16)[0].color.r, (s / 16) / ((1 - s) / 2 + s / 16), 1e-5);
 }
 
+// A triangle that the frame's sides may cut: uncut, its colour without perspective is within the bound of any pieces',
+// as is that with perspective. Without a difference in w nothing is added to the bound.
+TEST(OracleConventions, WithoutPerspectiveCutColoursAreBounded) {
+  const auto at = [](float x, float y, float w) { return glm::vec3(x * w, y * w, w); };
+  const auto answer = [&](float w, C::Interpolation interpolation) {
+    Scene scene = window_scene({{at(-1.5f, -1, 2), at(1.5f, -1, w), at(1.5f, 1, w)}});
+    scene.projection = Perspective{90, 1, 100};
+    for (std::size_t i = 0; i < 3; ++i) scene.meshes[0].colors[i] = glm::vec4(glm::vec3(i == 0 ? 0 : 1), 1);
+    C conventions;
+    conventions.interpolation = interpolation;
+    return legal(scene, conventions).at(24, 8)[0];
+  };
+  const double s = (24.5 / 16 - 1 + 1.5) / 3;  // of the way from the left to the right
+  for (const float w : {2.0f, 3.0f, 16.0f}) {
+    const LegalAnswer affine = answer(w, C::Interpolation::affine);
+    const double with_perspective = (s / w) / ((1 - s) / 2 + s / w),
+                 range = std::max(with_perspective, 1 - with_perspective);
+    EXPECT_LE(std::abs(affine.color.r - with_perspective), affine.color_bound) << w;
+    EXPECT_LE(std::abs(affine.color.r - s), affine.color_bound) << w;
+    EXPECT_LE(affine.color_bound, 2.1 * (1 - 2 / w) * range + 1e-5) << w;
+    EXPECT_LE(answer(w, C::Interpolation::perspective).color_bound, 3e-5) << w;
+  }
+}
+
 // Two triangles that share an edge through centres: in one of them, whichever; on a border, in one or none.
 TEST(OracleConventions, SharedEdgesAreCoveredOnce) {
   const Scene scene = window_scene(

@@ -40,6 +40,8 @@ TEST(Conformance, OfAScene) {
   open.measurement.items = open.measurement.ambiguous = 4;
   EXPECT_EQ(conformance_of(verdict("a/b", {open, kLacking})), Conformance::unable) << "an empty frame is legal, too";
   EXPECT_EQ(conformance_of(verdict("a/b", {open, kHolds})), Conformance::holds);
+  const Comparison depth = row("exact", Kind::from_scene, Stage::depth, Outcome::within);
+  EXPECT_EQ(conformance_of(verdict("a/b", {open, depth})), Conformance::unable) << "nobody judged a colour";
   EXPECT_TRUE(conformance_text(std::vector{verdict("a/b", {open})}).ends_with("several legal answers 1\n"));
   --open.measurement.ambiguous;
   EXPECT_EQ(conformance_of(verdict("a/b", {open})), Conformance::holds);

@@ -25,18 +25,21 @@ std::vector<std::pair<std::string, std::size_t>> by_count(const Counts& counts) 
 
 std::string group_of(const check::SceneVerdict& verdict) { return verdict.scene.substr(0, verdict.scene.find('/')); }
 
-// Whether every item compared has several legal answers, or a program that draws nothing holds: all rows are of the
-// frame, and leave open what it holds.
+// Whether rows of the frame leave open what it holds: every item compared has several legal answers, or so has every
+// colour of the frame, or a program that draws nothing holds.
 bool is_open(const check::SceneVerdict& verdict) {
-  std::size_t open = 0;
+  std::size_t rows = 0, open = 0, colors = 0, open_colors = 0;
   for (const check::Comparison& c : verdict.comparisons) {
     if (!check::votes(c) || !check::was_compared(c)) continue;
     const check::Measurement& m = c.measurement;
-    const bool is_all = m.items > 0 && m.ambiguous >= m.items;
-    if (c.outcome != check::Outcome::ambiguous_only || !(is_all || verdict.empty_holds)) return false;
-    ++open;
+    const bool is_all = m.items > 0 && m.ambiguous >= m.items, is_color = c.stage == Stage::merge;
+    const bool is_open = c.outcome == check::Outcome::ambiguous_only && (is_all || verdict.empty_holds);
+    ++rows;
+    open += is_open ? 1 : 0;
+    colors += is_color ? 1 : 0;
+    open_colors += is_color && is_open && is_all ? 1 : 0;
   }
-  return open > 0;
+  return rows > 0 && (open == rows || (colors > 0 && open_colors == colors));
 }
 
 std::string counted(const std::vector<std::pair<std::string, std::size_t>>& counts) {
@@ -53,7 +56,8 @@ std::string unable_reason(const check::SceneVerdict& verdict) {
   const bool by_itself = !rows.empty() && rows.front().judge.reference == kProgram;
   if (by_itself) return rows.front().note;
   if (!is_open(verdict)) return "nothing that it left could be judged";
-  return verdict.empty_holds ? "a frame in which nothing is drawn holds, too" : "every pixel has several legal answers";
+  return verdict.empty_holds ? "a frame in which nothing is drawn holds, too"
+                             : "every colour has several legal answers";
 }
 
 const check::Comparison* first_wrong(const check::SceneVerdict& verdict) {

@@ -1,0 +1,173 @@
+// The colour of a hit, with its bound.
+#include <algorithm>
+#include <cmath>
+
+#include "reference/arithmetic/color_error.h"
+#include "reference/arithmetic/fog.h"
+#include "reference/arithmetic/light_bounds.h"
+#include "reference/arithmetic/texture.h"
+#include "reference/oracle/pixel_hit.h"
+#include "reference/oracle/pixel_site.h"
+
+namespace plumbline::math {
+
+namespace {
+
+/// The hit's texture coordinates, and the range of lambda over the four pixels of its 2 x 2 quad, by ray differentials:
+/// d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j. `off`: relative error of the derivatives.
+BoundedPlace place_in_texture(const Texture& texture, const PixelSite& site, const BoundedFour& st,
+                              const LevelRules& rules, double off) {
+  const Triangle& t = site.t;
+  const glm::ivec2 pixel = site.pixel;
+  const glm::dvec3 centre = site.scene.to_centre(site.d);
+  BoundedPlace out{glm::dvec2(st.value), st.bound, 0, kInfinity, -kInfinity};
+  const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
+  const double least_off = std::max(1 - off, 0.0);
+  for (int k = 0; k < 4; ++k) {
+    const glm::ivec2 at((pixel.x & ~1) + k % 2, (pixel.y & ~1) + k / 2);
+    const glm::dvec3 ray = centre + glm::dvec3(glm::dvec2(at - pixel), 0);
+    const glm::dvec3 e(glm::dot(t.n[0], ray), glm::dot(t.n[1], ray), glm::dot(t.n[2], ray));
+    const double sum = e.x + e.y + e.z;
+    glm::dvec2 d_dx(0), d_dy(0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double b = e[static_cast<glm::length_t>(i)] / sum;
+      const glm::dvec2 texcoord = site.scene.corners[t.corner[i]].texcoord;
+      d_dx += (t.n[i].x - b * n_sum.x) / sum * texcoord;
+      d_dy += (t.n[i].y - b * n_sum.y) / sum * texcoord;
+    }
+    const bool ahead = sum * t.sign > 0;
+    const double lambda = ahead ? level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.max_lod);
+    const double least = ahead ? smallest_level_of_detail(texture, least_off * d_dx, least_off * d_dy, rules)
+                               : static_cast<double>(texture.sampler.min_lod);
+    const double most = ahead ? largest_level_of_detail(texture, (1 + off) * d_dx, (1 + off) * d_dy, rules) : lambda;
+    if (at == pixel) out.lambda = lambda;
+    out.lambda_lo = std::min(out.lambda_lo, least);
+    out.lambda_hi = std::max(out.lambda_hi, most);
+  }
+  return out;
+}
+
+/// Largest excess of a colour beyond [0,1] in channels that are within [0,1] at all corners: by extrapolation beyond
+/// the triangle, where a renderer may clamp or not.
+double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corners) {
+  double out = 0;
+  for (glm::length_t c = 0; c < 4; ++c) {
+    const auto is_within = [&](const BoundedFour& of) { return of.value[c] >= 0 && of.value[c] <= 1; };
+    if (std::ranges::all_of(corners, is_within)) out = std::max(out, std::max(color[c] - 1, -color[c]));
+  }
+  return out;
+}
+
+/// The colours of one draw's fragments at a site.
+class FragmentColor {
+ public:
+  FragmentColor(const Scene& scene, const PixelSite& site, bool certain)
+      : scene_(scene), site_(site), draw_(scene.draws[site.t.draw]), certain_(certain) {}
+
+  /// The colour and its bound after all stages up to fog.
+  BoundedFour color() const;
+
+ private:
+  bool is_two_sided() const { return draw_.lit && scene_.light_model.sides == LightModel::Sides::two; }
+  bool is_back() const { return is_two_sided() && site_.t.sign < 0; }
+  // of_corner(): the attribute at each corner.
+  BoundedFour attribute(auto of_corner) const { return site_.attribute(at_corners(of_corner), certain_); }
+  std::array<BoundedFour, 3> at_corners(auto of_corner) const {
+    const auto corner = [&](std::size_t i) { return of_corner(site_.scene.corners[site_.t.corner[i]]); };
+    return {corner(0), corner(1), corner(2)};
+  }
+  // A colour that vertices are lit to: smooth or flat.
+  BoundedFour of_vertices(auto of_corner) const {
+    const std::array<BoundedFour, 3> corners = at_corners(of_corner);
+    BoundedFour out = draw_.shading == Shading::flat ? corners[2] : site_.attribute(corners, certain_);
+    out.bound += draw_.shading == Shading::flat ? 4 * kFloatRounding : overshoot(out.value, corners);
+    return out;
+  }
+  // Replaces the colour, and with a separate specular colour that one, by those that the fragment is lit to.
+  void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
+  BoundedFour textured(const BoundedFour& color) const;
+  void fog(BoundedFour& color) const;
+
+  const Scene& scene_;
+  const PixelSite& site_;
+  const Draw& draw_;
+  bool certain_;
+};
+
+BoundedFour FragmentColor::color() const {
+  const bool back = is_back(), separate = scene_.light_model.separate_specular;
+  BoundedFour color = of_vertices([&](const Corner& c) {
+    return back && is_lit_per_vertex(draw_) ? BoundedFour{c.back_color, c.back_color_error}
+                                            : BoundedFour{c.color, c.color_error};
+  });
+  BoundedFour secondary;
+  if (is_lit_per_vertex(draw_) && separate) {
+    secondary = of_vertices([&](const Corner& c) {
+      return back ? BoundedFour{c.back_secondary, c.back_secondary_error} : BoundedFour{c.secondary, c.secondary_error};
+    });
+  }
+  if (is_lit_per_fragment(draw_)) light_fragment(color, secondary);
+  if (draw_.texture) color = textured(color);
+  if (draw_.lit && separate)
+    color = {color_sum(color.value, secondary.value), color.bound + secondary.bound + kFloatRounding};
+  if (is_two_sided() && (site_.t.thin || site_.t.sign == 0)) color.bound = kInfinity;  // it may show either face
+  if (draw_.fog && std::isfinite(color.bound)) fog(color);
+  return color;
+}
+
+void FragmentColor::light_fragment(BoundedFour& color, BoundedFour& secondary) const {
+  const BoundedFour p = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
+  const BoundedFour n = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
+  const Known p_eye{glm::dvec3(p.value), p.bound};
+  Known n_eye = unit({glm::dvec3(n.value), n.bound});
+  if (is_back()) n_eye.v = -n_eye.v;
+  const bool follows = draw_.color_material != ColorMaterial::none && !scene_.meshes[draw_.mesh].colors.empty();
+  const bool known = std::isfinite(p.bound + n_eye.error + color.bound) && n_eye.error < 1;
+  const Projected& projected = site_.scene;
+  const auto of_fragment = [&](bool specular) {
+    const DoubleMaterial material = material_of(scene_, draw_, {is_back(), specular}, color.value);
+    const double bound =
+        known ? light_error(scene_, material, {glm::dvec4(p_eye.v, 1), glm::dvec4(0), n_eye.v},
+                            {p_eye.error, n_eye.error, follows ? color.bound : 0, projected.light_errors},
+                            projected.lights)
+              : kInfinity;
+    return BoundedFour{light(scene_, material, projected.lights, p_eye.v, n_eye.v), bound};
+  };
+  if (scene_.light_model.separate_specular) secondary = of_fragment(true);
+  color = of_fragment(false);
+}
+
+BoundedFour FragmentColor::textured(const BoundedFour& color) const {
+  const BoundedFour st = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.texcoord, 0, 0), 0}; });
+  const Texture& texture = scene_.textures.at(draw_.texture->texture);
+  const LevelRules rules = level_rules(site_.scene.conventions);
+  const BoundedPlace place = place_in_texture(texture, site_, st, rules, site_.slopes_off(certain_));
+  return bounded_textured_color(texture, *draw_.texture, color, place, rules);
+}
+
+void FragmentColor::fog(BoundedFour& color) const {
+  const BoundedFour p = attribute([](const Corner& c) {
+    return BoundedFour{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error};
+  });
+  const double f_error =
+      std::isfinite(p.bound) ? std::min(1.0, fog_factor(*draw_.fog, {p.value.z, p.bound}, {16}).error) : 1;
+  const glm::dvec3 from_fog = glm::abs(glm::dvec3(color.value) - glm::dvec3(draw_.fog->color));
+  color.bound += f_error * (std::max({from_fog.x, from_fog.y, from_fog.z}) + color.bound) + 4 * kFloatRounding;
+  color.value = fogged(*draw_.fog, color.value, p.value.z);
+}
+
+}  // namespace
+
+void set_color(const Scene& scene, const PixelSite& site, PixelHit& hit) {
+  const BoundedFour color = FragmentColor(scene, site, hit.hit.certain).color();
+  hit.hit.color = color.value;
+  hit.hit.color_bound = color.bound;
+}
+
+void color_hit(const Scene& scene, const Projected& projected, int px, int py, PixelHit& hit) {
+  if (hit.colored) return;
+  set_color(scene, PixelSite(projected, projected.triangles[hit.hit.primitive], px, py), hit);
+  hit.colored = true;
+}
+
+}  // namespace plumbline::math

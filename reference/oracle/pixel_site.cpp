@@ -1,0 +1,174 @@
+#include "reference/oracle/pixel_site.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::math {
+
+namespace {
+
+bool is_affine(const Projected& scene) { return scene.conventions.interpolation == Conventions::Interpolation::affine; }
+
+/// Gradients of the edge functions that weight attributes: where a renderer interpolates without perspective, each is
+/// multiplied by its corner's w. Of a triangle that may be cut: with perspective (error_of_cuts()).
+std::array<glm::dvec3, 3> weight_planes(const Projected& scene, const Triangle& t) {
+  std::array<glm::dvec3, 3> out = t.n;
+  if (!is_affine(scene) || t.cut) return out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] *= scene.corners[t.corner[i]].v.z;
+  return out;
+}
+
+/// Largest difference between an attribute with perspective and one without, over the attribute's range, where a
+/// renderer may cut the triangle into pieces. A piece's corners have attributes a_i, whose range is within that of the
+/// triangle's corners, and w_i in [w_lo, w_hi]. A point has b_i without perspective, and with it c_i = (b_i / w_i) / m,
+/// m = sum b_j / w_j >= 1 / w_hi. Half the sum of |b_i - c_i| is the sum of b_i (1 - 1 / (w_i m)) where that is
+/// positive: at most 1 - w_lo / w_hi.
+double error_of_cuts(const Projected& scene, const Triangle& t) {
+  if (!is_affine(scene) || !t.cut) return 0;
+  const auto w = [&](std::size_t i) { return scene.corners[t.corner[i]].v.z; };
+  const auto [lo, hi] = std::minmax({w(0), w(1), w(2)});
+  return 1 - lo / hi;
+}
+
+}  // namespace
+
+EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d) {
+  const double slope2 = n.x * n.x + n.y * n.y, n2 = glm::dot(n, n);
+  if (slope2 > 0 && n2 > 0) {
+    const double e = glm::dot(n, d);
+    const glm::dvec3 foot(d.x - e / slope2 * n.x, d.y - e / slope2 * n.y, 1);
+    // foot = a v_j + b v_k, and 1/w = a + b there
+    const double a = glm::dot(glm::cross(foot, v_k), n) / n2, b = glm::dot(glm::cross(v_j, foot), n) / n2;
+    if (a >= 0 && b >= 0) return {std::abs(e) / std::sqrt(slope2), foot, 1 / (a + b)};
+  }
+  EdgeDistance nearest{kInfinity, d, 1};
+  for (const glm::dvec3& v : {v_j, v_k}) {
+    if (!(v.z > 0)) continue;
+    const glm::dvec3 p = v / v.z;
+    const double distance = std::hypot(p.x - d.x, p.y - d.y);
+    if (distance < nearest.pixels) nearest = {distance, p, v.z};
+  }
+  return nearest;
+}
+
+PixelSite::PixelSite(const Projected& projected, const Triangle& triangle, int px, int py)
+    : scene(projected), t(triangle), pixel(px, py), d(projected.ray(px, py)) {
+  place();
+  w = std::clamp(w, t.w_min, t.w_max);
+  in_reach = inside || t.loose || border <= t.reach;
+  if (in_reach) moved = float_displacement(scene, t, nearest, w);
+}
+
+void PixelSite::place() {
+  inside = by_ties = !t.flat;
+  border = kInfinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double e = t.sign * glm::dot(t.n[i], d);
+    if (!t.flat && e * t.per_pixel[i] < -t.reach) {
+      inside = by_ties = false;
+      border = kInfinity;
+      nearest = d;
+      w = 1;
+      return;
+    }
+    inside &= e >= 0;
+    const auto left_bottom = Conventions::TieRule::left_bottom;  // what a float renderer of OpenGL's conventions has
+    by_ties &= e > 0 || (e == 0 && owns_ties(left_bottom, t.sign * glm::dvec2(t.n[i])));
+    border = std::min(border, t.per_pixel[i] > 0 ? e * t.per_pixel[i] : kInfinity);
+  }
+  const double inv_w = glm::dot(t.w_plane, d);
+  if (inside && inv_w > 0) {
+    nearest = d;
+    w = 1 / inv_w;
+    return;
+  }
+  inside = by_ties = false;
+  border = kInfinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 &v_j = scene.corners[t.corner[(i + 1) % 3]].v, &v_k = scene.corners[t.corner[(i + 2) % 3]].v;
+    const EdgeDistance edge = edge_distance(t.n[i], v_j, v_k, d);
+    if (edge.pixels < border) {
+      border = edge.pixels;
+      nearest = edge.d_nearest;
+      w = edge.w;
+    }
+  }
+}
+
+double PixelSite::piece_altitude(bool certain) const {
+  // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
+  // is deep inside, far from the triangle's edges, the near and far cuts, and the frame's border (half a pixel away).
+  const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
+  const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
+  const bool deep = certain && border > margin && margin < from_frame &&
+                    std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
+  return (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - scene.snap);
+}
+
+double PixelSite::snap_weight(bool certain) const {
+  // A plane is set up through vertices within delta_E of their places, and evaluated at the pixel. With b' the pixel's
+  // barycentrics in the moved triangle, it comes to z at sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel.
+  // Inside, that sum is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b'
+  // are negative, each by no more than the step over the altitude. A triangle that is cut is drawn in pieces, which
+  // have such borders inside it too.
+  if (certain && !t.cut) return 1;
+  const double altitude = piece_altitude(certain);
+  return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
+}
+
+/// snap_weight() for the pixel's centre where the triangle covers a sample: the centre may be outside of the triangle
+/// by the sample's offset.
+double PixelSite::centre_weight(bool certain) const {
+  const double weight = snap_weight(certain), apart = glm::length(scene.sample);
+  if (apart == 0) return weight;
+  const double altitude = t.altitude - 2 * (t.reach - scene.snap);
+  return altitude > 0 ? std::max(weight, 1 + 4 * (scene.snap + apart) / altitude) : kInfinity;
+}
+
+BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool certain) const {
+  const glm::dvec3 centre = scene.to_centre(d);
+  const std::array<glm::dvec3, 3> n = weight_planes(scene, t);
+  const glm::dvec3 e(glm::dot(n[0], centre), glm::dot(n[1], centre), glm::dot(n[2], centre));
+  const double weight = centre_weight(certain), sum = e.x + e.y + e.z;
+  // No reliable plane.
+  if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0) || (is_affine(scene) && !t.ahead))
+    return {(corners[0].value + corners[1].value + corners[2].value) / 3.0, kInfinity};
+  const auto largest = [](const glm::dvec4& v) {
+    const glm::dvec4 a = glm::abs(v);
+    return std::max({a.x, a.y, a.z, a.w});
+  };
+  glm::dvec4 value(0), slope_x(0), slope_y(0);
+  double error = 0, spread = 0, size = 1;
+  const glm::dvec3 n_sum = n[0] + n[1] + n[2];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double b = e[static_cast<glm::length_t>(i)] / sum;
+    value += b * corners[i].value;
+    slope_x += (n[i].x - b * n_sum.x) / sum * corners[i].value;
+    slope_y += (n[i].y - b * n_sum.y) / sum * corners[i].value;
+    error = std::max(error, corners[i].bound);
+    size = std::max(size, largest(corners[i].value));
+  }
+  for (const BoundedFour& corner : corners) spread = std::max(spread, largest(corner.value - value));
+  // A far point of a triangle that comes near has small e_i: their errors are those of the near end, w / w_min larger.
+  // The relative error of 1/w_i moves the value by its share of the spread, and so does that of w's plane.
+  const double near_end = std::max(w, centre == d ? 0 : 1 / glm::dot(t.w_plane, centre)) / t.w_min;
+  const double value_weight = 1 + (weight - 1) * near_end;
+  const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
+  // A piece of a cut triangle may be so thin that snapping turns it over; its plane then goes through snapped corners.
+  const bool turned = !certain && (t.cut || t.thin);
+  const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
+  const glm::dvec2 from_place = weight * moved + (snapped ? weight * scene.step : turned ? scene.step : 0);
+  return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y +
+                     value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +
+                                     32 * kFloatRounding * near_end * size)};
+}
+
+double PixelSite::slopes_off(bool certain) const {
+  const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
+  const double altitude = certain ? t.fat_altitude : t.altitude, by = glm::length(moved) + (snapped ? scene.snap : 0);
+  const double of_w = t.roundings * kFloatRounding * t.size.w / t.w_min;
+  constexpr double kAnything = 1e30;
+  return altitude > 0 ? std::min(4 * by / altitude + 4 * of_w + 16 * kFloatRounding, kAnything) : kAnything;
+}
+
+}  // namespace plumbline::math

@@ -1,0 +1,61 @@
+// A triangle where a pixel's ray meets it: what its coverage, depth and colour there are computed from.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include <glm/glm.hpp>
+
+#include "reference/arithmetic/project.h"
+
+namespace plumbline::math {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Whether a sample on an edge belongs to the triangle that lies in the direction `inward` from the edge.
+bool owns_ties(Conventions::TieRule rule, glm::dvec2 inward);
+
+/// Distance of a window point d from a triangle's edge from corner j to corner k, as far as the edge is in front of the
+/// eye; infinite where it is not.
+struct EdgeDistance {
+  double pixels;
+  glm::dvec3 d_nearest;  ///< the point of the edge nearest to d
+  double w;              ///< clip w there
+};
+/// `n`: v_j x v_k.
+EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d);
+
+/// Functions of `certain` take whether every legal renderer covers the pixel by the triangle's inside.
+class PixelSite {
+ public:
+  PixelSite(const Projected& scene, const Triangle& triangle, int px, int py);
+
+  const Projected& scene;
+  const Triangle& t;
+  glm::ivec2 pixel;
+  glm::dvec3 d;           ///< the ray of the pixel's sample
+  bool inside = false;    ///< in the closed triangle, in double
+  bool by_ties = false;   ///< inside, with edges by the tie rule
+  double border = 0;      ///< distance to the triangle's border [pixels]
+  glm::dvec3 nearest{0};  ///< the point of the triangle nearest to d
+  double w = 0;           ///< clip w at `nearest`, within that of the triangle's visible part
+  bool in_reach = false;  ///< a legal renderer may cover the pixel; else `moved` is not set
+  glm::dvec2 moved{0};    ///< largest displacement of the triangle by float arithmetic at `nearest` [pixels]
+
+  /// Least altitude of the pieces for which a renderer may set up a plane at this pixel [pixels].
+  double piece_altitude(bool certain) const;
+  /// S: factor by which the errors of a plane's corners may grow at a pixel of its triangle; infinite: without bound.
+  double snap_weight(bool certain) const;
+  /// An attribute at the pixel's centre, with its bound, by the renderer's interpolation; extrapolated beyond the
+  /// triangle's border, as renderers do. `corners`: the attribute at the corners.
+  BoundedFour attribute(const std::array<BoundedFour, 3>& corners, bool certain) const;
+  /// Relative error of a renderer's slopes of attributes: corners displaced by float arithmetic or snapping tilt a plane
+  /// by the displacement over its altitude; w adds its own error, the evaluation 16 u.
+  double slopes_off(bool certain) const;
+
+ private:
+  void place();
+  double centre_weight(bool certain) const;
+};
+
+}  // namespace plumbline::math
