@@ -74,6 +74,13 @@ void derive_normals(const DrawIndex& draws, Records<double>& r) {
   }
 }
 
+// Whether a corner is the vertex, up to four roundings of a renderer that keeps clip positions in another form.
+bool is_copy(const Vec4<double>& vertex, const Vec4<double>& corner) {
+  const Vec4<double> apart = glm::abs(corner - vertex), size = glm::abs(vertex);
+  const double error = 0x1p-22 * std::max({size.x, size.y, size.z, size.w});
+  return apart.x <= error && apart.y <= error && apart.z <= error && apart.w <= error;
+}
+
 void derive_cut(const DrawIndex& draws, Records<double>& r) {
   if (r.vertices.empty()) {
     for (ClipVertex<double>& corner : r.polygons.vertices) corner.cut = true;
@@ -91,7 +98,7 @@ void derive_cut(const DrawIndex& draws, Records<double>& r) {
       ClipVertex<double>& corner = r.polygons.vertices[i];
       corner.cut = true;
       for (int k = 0; k < 3 && corner.cut; ++k) {
-        if (found[k] || glm::vec4(r.vertices[corners[k]].p_clip) != glm::vec4(corner.p_clip)) continue;
+        if (found[k] || !is_copy(r.vertices[corners[k]].p_clip, corner.p_clip)) continue;
         found[k] = true;
         corner.cut = false;
       }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -53,7 +54,7 @@ void learn_weights(Prober& prober) {
   Texture texture = texture_of(4, code);
   texture.sampler.min = MinFilter::linear, texture.sampler.mag = MagFilter::linear;
   const Plane<glm::vec4> color = prober.draw(textured_frame("texture_weights", texture, 1)).color;
-  double most = 0;
+  double most = 0, highest = -std::numeric_limits<double>::infinity();
   const C& c = prober.learned.conventions;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
@@ -66,10 +67,14 @@ void learn_weights(Prober& prober) {
       };
       const double exact =
           glm::mix(glm::mix(grey(0, 0), grey(1, 0), share.x), glm::mix(grey(0, 1), grey(1, 1), share.x), share.y);
-      most = farther(most, 255 * static_cast<double>(color(x, y).r) - exact);
+      const double off = 255 * static_cast<double>(color(x, y).r) - exact;
+      most = farther(most, off);
+      highest = std::max(highest, off);
     }
   }
   const std::string evidence = fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * kTexturedSize, most);
+  // Weights of few bits are off towards either neighbour: no texel is above the exact one where mixes are truncated.
+  if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");
   int bits = c.color_rounding != C::Rounding::nearest && most <= 1.01 ? C::kFloat : most <= 0.51 ? C::kFloat : 12;
   // A weight is off by a step, of neighbours up to 255 codes apart in each direction; three means round.
   while (bits > 0 && most > 0.5 + std::ldexp(255.0, -bits) * (1 + 1.5)) --bits;

@@ -229,6 +229,23 @@ TEST(CompleteRecords, refuse_what_nothing_follows_from) {
   }
 }
 
+// A vertex of the mesh may be a few roundings off, where clip positions are kept in another form.
+TEST(CompleteRecords, tell_cuts_from_vertices_within_four_roundings) {
+  const Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  const auto cut = [&](double roundings) {
+    Capture capture = whole_capture(scene);
+    capture.derived = {"clip.cut"};
+    glm::dvec4& p = capture.records.polygons.vertices.at(0).p_clip;
+    const glm::dvec4 size = glm::abs(p);
+    p.z += roundings * 0x1p-24 * std::max({size.x, size.y, size.z, size.w});
+    complete_records(scene, capture);
+    return capture.records.polygons.vertices.at(0).cut;
+  };
+  EXPECT_FALSE(cut(0));
+  EXPECT_FALSE(cut(3.9));
+  EXPECT_TRUE(cut(4.1));
+}
+
 TEST(CompleteRecords, snap_to_the_grid_of_the_conventions) {
   const Scene scene = load_scene(kScenes + "cull/both_windings.json", {});
   const auto derived = [&](int bits, Conventions::Rounding rounding) {

@@ -294,6 +294,30 @@ TEST(Learn, TexturesThatNoConventionExplainsAreFindings) {
   }
 }
 
+// Mixes of texels in codes: truncated each time they are below the exact ones; rounded, they are like few bits' weights.
+TEST(Learn, MixesThatTruncateAreNoWeightsOfFewBits) {
+  const auto found = [](double most_above) {
+    OfAlteredScenes coarse;
+    coarse.after = [=](const Scene& scene, Capture& c) {
+      if (scene.name != "probe/texture_weights") return;
+      for (int i = 0; glm::vec4 & color : c.planes.color.values()) {
+        const double off = most_above - 0.5 - 0.3 * (i++ % 6);  // codes
+        color =
+            glm::vec4(glm::vec3(static_cast<float>(std::floor(255.0 * static_cast<double>(color.r) + off) / 255)), 1);
+      }
+    };
+    return learn(coarse).conventions;
+  };
+  const C truncated = found(0), rounded = found(1.5);
+  EXPECT_EQ(std::ranges::count(truncated.open, "texture_bits"), 1);
+  EXPECT_TRUE(std::ranges::any_of(truncated.unexplained, [](const std::string& line) {
+    return line.starts_with("texture_bits: ") && line.ends_with("all below: each mix is truncated");
+  }));
+  EXPECT_EQ(std::ranges::count(rounded.open, "texture_bits"), 0);
+  EXPECT_LE(rounded.texture_bits, 9);
+  EXPECT_GE(rounded.texture_bits, 4);
+}
+
 // A renderer of one depth function is drawn with by that one. What lies beyond the far plane then fails the depth test:
 // whether it is cut does not show.
 TEST(Learn, ADepthFunctionThatIsDrawnIsEnough) {

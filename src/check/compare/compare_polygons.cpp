@@ -126,10 +126,17 @@ std::size_t turn_of(Vertices mine, Vertices theirs, const Corners& corners) {
   return best;
 }
 
+bool is_within(const Vec4<double>& a, const Vec4<double>& b, double error) {
+  for (int c = 0; c < 4; ++c) {
+    if (!(difference(a[c], b[c]) <= error)) return false;
+  }
+  return true;
+}
+
 // `loosely`: vertices on planes whose cuts rounding decides about are held to the triangle and the planes alone.
 template <class At>
 void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const Corners& corners, double factor,
-                     bool loosely, const At& at) {
+                     double copies, bool loosely, const At& at) {
   const double unit = u * corners.scale;
   std::vector<ClipVertex<double>> mine, theirs;  // without those that rounding decides about, where the numbers differ
   std::array<bool, 6> open{};
@@ -176,11 +183,13 @@ void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const
       meter.value(distance_from_edge(v, corners, 0) / u, factor, at("off its edge"), 0, 0);
       continue;
     }
-    meter.value(v.cut == w.cut ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
-    if (!w.cut) {
+    const bool is_copy = copies > 0 && is_within(v.p_clip, w.p_clip, copies * unit);  // whatever made it
+    meter.value(v.cut == w.cut || is_copy ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
+    if (!w.cut || (!v.cut && is_copy)) {
       for (int c = 0; c < 4; ++c) {
-        meter.value(difference(v.p_clip[c], w.p_clip[c]) / unit, 0, at("p_clip"), v.p_clip[c], w.p_clip[c]);
-        meter.value(difference(v.color[c], w.color[c]) / u, 0, at("color"), v.color[c], w.color[c]);
+        meter.value(difference(v.p_clip[c], w.p_clip[c]) / unit, copies, at("p_clip"), v.p_clip[c], w.p_clip[c]);
+        meter.value(difference(v.color[c], w.color[c]) / u, copies * corners.color_scale, at("color"), v.color[c],
+                    w.color[c]);
       }
       continue;
     }
@@ -264,7 +273,7 @@ void compare_parts(Meter& meter, std::span<const Vertices> parts, Vertices whole
 }  // namespace
 
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double factor, bool flat_applies) {
+                             double factor, bool flat_applies, double copies) {
   const DrawIndex draws(scene);
   for (const auto* list : {&candidate.polygons.polygons, &reference.polygons.polygons}) {
     const bool fits =
@@ -296,7 +305,7 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
       }
     } else if (!mine.empty() && !theirs.empty()) {
       const auto compare = [&](Meter& to, bool loosely) {
-        compare_polygon(to, a.vertices(), b.vertices(), corners, factor, loosely, at);
+        compare_polygon(to, a.vertices(), b.vertices(), corners, factor, copies, loosely, at);
       };
       // Equal counts may still be different vertices: of a triangle in a clip plane, the order of cuts decides.
       const std::size_t count = a.vertices().size();

@@ -48,9 +48,11 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
 /// Polygons as polygons: the same primitives and numbers of vertices; vertices of the mesh in the same place; each cut
 /// one on the planes that its counterpart lies on, and in the plane of its triangle, colours included. Where a corner
 /// lies within `factor` u of a clip plane, the number of vertices is ambiguous. `flat_applies`: colours are the
-/// provoking vertex' where the draw is flat.
+/// provoking vertex' where the draw is flat. `copies`: error of a vertex of the mesh [u of its triangle's largest
+/// coordinate, or channel], for a renderer that keeps clip positions in another form; a cut no farther than that from
+/// such a vertex counts as the vertex.
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double factor, bool flat_applies = true);
+                             double factor, bool flat_applies = true, double copies = 0);
 /// The same positions but for `factor` u of |p_clip| + w; for references that rebuild p_clip from the window.
 Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
                                       double factor);

@@ -13,6 +13,7 @@ namespace {
 std::vector<Vec4<double>>& coordinates(Capture& c) { return c.records.varyings[Varying::texture].fragments; }
 
 bool colors_truncated(const Evidence& e) {
+  if (e.conventions.color_rounding == Conventions::Rounding::down) return false;  // declared
   const auto &mine = e.candidate.planes.color.values(), &theirs = e.expected.planes.color.values();
   const double scale = color_scale(e.scene.frame.color);
   Truncation t;

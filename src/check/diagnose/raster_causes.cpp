@@ -129,6 +129,7 @@ bool depth_in_perspective(const Evidence& e) {
 }
 
 bool depths_truncated(const Evidence& e) {
+  if (e.conventions.depth_rounding == Conventions::Rounding::down) return false;  // declared
   const std::vector<double>&mine = e.candidate.records.depth, &theirs = e.expected.records.depth;
   const double scale = depth_scale(e.scene.frame.depth);
   Truncation t;

@@ -22,6 +22,10 @@ double from_origin(const Case& c, Stage stage) { return c.foreign ? tolerance(Pr
 // Roundings of a stranger's colours at corners, which may be products by 1/w undone, or fixed point of 16 bits.
 double corner_roundings(const Case& c) { return c.foreign ? 4 : 0; }
 
+// Roundings of a stranger's clip positions that no plane cuts, u of the largest coordinate: of a view volume [0,w] in z,
+// z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again.
+double copied_vertices(const Case& c) { return c.foreign ? 4 : 0; }
+
 // Compares a varying in the stage's comparator, in place of the colour.
 Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records<double>& theirs) {
   const Scene& scene = c.scene;
@@ -32,7 +36,7 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
   if (v == Varying::secondary) a.varyings[Varying::back_color] = mine.varyings[Varying::back_secondary];
   const double factor = tolerance(Profile::exact, stage).factor;
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
-  if (stage == Stage::clip) return compare_polygons(scene, a, b, factor, is_lit(v));
+  if (stage == Stage::clip) return compare_polygons(scene, a, b, factor, is_lit(v), copied_vertices(c));
   if (stage == Stage::window) return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c));
   return compare_attributes(a, b, factor, from_origin(c, stage));
 }
@@ -150,7 +154,9 @@ void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeI
     case Stage::matrices: break;
     case Stage::vertex: return add([&](double f) { return compare_vertices(c.scene, mine, theirs, f, f); });
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
-    case Stage::clip: return add([&](double f) { return varyings(compare_polygons(c.scene, mine, theirs, f)); });
+    case Stage::clip:
+      return add(
+          [&](double f) { return varyings(compare_polygons(c.scene, mine, theirs, f, true, copied_vertices(c))); });
     case Stage::window:
       return add([&](double f) {
         return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c)));
