@@ -136,6 +136,8 @@ DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive) {
 }
 
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y, const DepthLimits& limits) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (area_may_vanish(t)) return {kInfinity, Vec4<double>(kInfinity)};
   const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
   PlaneBounds out = bounds_by(t, b, x, y);
   if (t.corners != 2) return out;

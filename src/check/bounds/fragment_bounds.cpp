@@ -316,10 +316,13 @@ FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) co
   if (!draw || plain_[*draw]) {
     const PlaneBounds plane = primitive_bounds(records_, primitive, x, y);
     Vec4<double> mean(0);
+    double times = std::numeric_limits<double>::infinity();  // of the triangle that the centre is in, or nearest to
     for (const WindowTriangle<double>& t : triangles_of(records_, primitive)) {
       if (is_near(t, x, y)) mean = glm::max(mean, mean_error(t, x, y));
+      times = std::min(times, t.corners == 3 ? enlarged(t, x, y) : 1);
     }
-    return {factor_ * u * plane.color, plane.line_shift_color, lit_error(p, 1) + mean, {}};
+    if (!std::isfinite(times)) times = 1;  // a sliver's plane, which has no bound either
+    return {factor_ * u * plane.color, plane.line_shift_color, lit_error(p, times) + mean, {}};
   }
   FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, {}};
   drawn_.each(x, y, [&](std::size_t i) {

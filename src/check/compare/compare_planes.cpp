@@ -256,7 +256,12 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
       if (!std::isfinite(bound.color[c])) {
-        open_value(meter, v, place, w);
+        if (std::isnan(w) && std::isfinite(v)) {
+          meter
+              .ambiguous();  // a plane without area comes to 0 / 0 in the reference, which says nothing of the candidate
+        } else {
+          open_value(meter, v, place, w);
+        }
       } else {
         double diff = std::min(difference(v, w), difference(v + bound.line_shift[c], w));
         for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));

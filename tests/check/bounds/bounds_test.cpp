@@ -333,6 +333,21 @@ TEST(Bounds, GrowWithTheGradientAndTheDistanceFromTheOrigin) {
   EXPECT_LT(at(100, 1), 4 * (2 + 209 / 8.0));
 }
 
+// The third corner is midway between the others: the area is 0, or 2^-20 of a pixel, of terms of 85.
+TEST(Bounds, AreInfiniteWhereTheAreaMayVanishInFloat) {
+  const auto bound = [](double off) {
+    return bounds_from_origin(
+        triangle_of(
+            {{{16.06640625, 32.9140625, 0}, {9.1640625, 57.51953125, 0}, {12.615234375 + off, 45.216796875, 0}}}),
+        14, 38);
+  };
+  for (const double off : {0.0, 0x1p-22}) {
+    EXPECT_EQ(bound(off).depth, kInf) << off;
+    EXPECT_EQ(bound(off).color, Vec4<double>(kInf)) << off;
+  }
+  EXPECT_TRUE(std::isfinite(bound(0x1p-10).depth));
+}
+
 TEST(Bounds, DoNotDependOnTheOrderOfTheCorners) {
   Random r;
   for (int n = 0; n < 100; ++n) {
