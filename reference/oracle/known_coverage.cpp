@@ -11,6 +11,7 @@
 
 #include "reference/arithmetic/project.h"
 #include "reference/oracle/pixel_hit.h"
+#include "reference/oracle/pixel_site.h"
 
 namespace plumbline::math {
 
@@ -46,13 +47,6 @@ bool covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sa
 }
 
 }  // namespace
-
-bool owns_ties(C::TieRule rule, glm::dvec2 inward) {
-  using enum C::TieRule;
-  if (rule == inclusive || rule == exclusive) return rule == inclusive;
-  const bool left = rule == left_bottom || rule == left_top, bottom = rule == left_bottom || rule == right_bottom;
-  return inward.x != 0 ? (inward.x > 0) == left : (inward.y > 0) == bottom;
-}
 
 // Edge functions are exact in double: products of grid coordinates of 1/1024 pixel or coarser (settles_ties()).
 std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, int px, int py) {

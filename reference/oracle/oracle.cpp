@@ -61,9 +61,12 @@ Planes empty_planes(const FrameFormat& frame) {
 }
 
 /// Most fragments of a hit. A possible hit of a cut triangle has up to two: snapping may turn over a sliver of the
-/// triangle's fan, which then covers the pixel together with its neighbour in the fan.
+/// triangle's fan, which then covers the pixel together with its neighbour in the fan. By an inclusive rule a sample is
+/// in both pieces beside a diagonal, and at the border in all, which meet at one corner: of 9 corners 7 pieces.
 std::uint32_t pieces(const Projected& projected, const PixelHit& h) {
-  return !h.hit.certain && projected.triangles[h.hit.primitive].cut ? 2 : 1;
+  if (!projected.triangles[h.hit.primitive].cut) return 1;
+  if (projected.conventions.tie_rule != Conventions::TieRule::inclusive) return h.hit.certain ? 1 : 2;
+  return h.hit.certain ? 2 : 7;
 }
 
 /// Upper bound of the number of fragments that the hits make at the pixel.

@@ -32,6 +32,13 @@ double error_of_cuts(const Projected& scene, const Triangle& t) {
 
 }  // namespace
 
+bool owns_ties(C::TieRule rule, glm::dvec2 inward) {
+  using enum C::TieRule;
+  if (rule == inclusive || rule == exclusive) return rule == inclusive;
+  const bool left = rule == left_bottom || rule == left_top, bottom = rule == left_bottom || rule == right_bottom;
+  return inward.x != 0 ? (inward.x > 0) == left : (inward.y > 0) == bottom;
+}
+
 EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d) {
   const double slope2 = n.x * n.x + n.y * n.y, n2 = glm::dot(n, n);
   if (slope2 > 0 && n2 > 0) {

@@ -161,6 +161,17 @@ TEST(OracleConventions, WithoutPerspectiveColoursGoByTheWindow) {
   EXPECT_NEAR(legal(scene, {}).at(16, 16)[0].color.r, (s / 16) / ((1 - s) / 2 + s / 16), 1e-5);
 }
 
+// Where a triangle is cut, an inclusive rule covers a sample by both pieces beside a diagonal, nobody knows which.
+TEST(OracleConventions, AnInclusiveRuleCoversByBothPiecesBesideADiagonal) {
+  const Scene scene = window_scene({{glm::vec3(-20, -20, 0.5f), {100, -20, 0.5f}, {10, 60, 0.5f}}});
+  C inclusive, left_bottom;
+  inclusive.tie_rule = C::TieRule::inclusive, left_bottom.tie_rule = C::TieRule::left_bottom;
+  const Legal both = legal(scene, inclusive), one = legal(scene, left_bottom);
+  EXPECT_EQ(both.certain(16, 16), 1u);
+  EXPECT_EQ(both.possible(16, 16), 2u);
+  EXPECT_EQ(one.possible(16, 16), 1u);
+}
+
 // A triangle that the frame's sides may cut: uncut, its colour without perspective is within the bound of any pieces',
 // as is that with perspective. Without a difference in w nothing is added to the bound.
 TEST(OracleConventions, WithoutPerspectiveCutColoursAreBounded) {
