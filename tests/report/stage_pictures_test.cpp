@@ -15,6 +15,7 @@
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
 #include "report/page/diagnosis_page.h"
+#include "report/text/diagnosis_text.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 #include "tests/report/page_numbers.h"
@@ -140,6 +141,25 @@ TEST(DiagnosisPage, BeginsAtTheFirstDifferentStageAndMarksItsPixels) {
   const std::vector<std::uint32_t> marks = unpacked({{"data", view["marks"][0]}, {"bytes", 1}, {"channels", 1}});
   EXPECT_EQ(std::ranges::count(marks, 1u), 1);
   EXPECT_EQ(marks[static_cast<std::size_t>(2 * scene.frame.width + 4)], 1u);
+}
+
+TEST(DiagnosisText, SaysWhatMakesTheFirstStageNoMistake) {
+  const auto text_of = [](Stage stage, check::Outcome from_scene) {
+    check::Diagnosis diagnosis;
+    diagnosis.first = stage;
+    for (const check::Kind kind : {check::Kind::per_stage, check::Kind::from_scene}) {
+      check::Comparison row = check::not_judged("", {"exact", kind}, stage, from_scene, "");
+      if (kind == check::Kind::per_stage) row.outcome = check::Outcome::different;
+      row.measurement.items = 9;
+      diagnosis.verdict.comparisons.push_back(row);
+    }
+    return diagnosis_text(diagnosis);
+  };
+  const std::string order = "fragments drawn in another order, do this\n";
+  EXPECT_NE(text_of(Stage::visibility, check::Outcome::ambiguous_only).find(order), std::string::npos);
+  EXPECT_NE(text_of(Stage::merge, check::Outcome::within).find(order), std::string::npos);
+  EXPECT_EQ(text_of(Stage::visibility, check::Outcome::different).find(order), std::string::npos);
+  EXPECT_EQ(text_of(Stage::shade, check::Outcome::within).find(order), std::string::npos);
 }
 
 TEST(DiagnosisPage, OfAnAntialiasedSceneShowsTheFrameAndAPass) {

@@ -32,6 +32,18 @@ std::string stage_names(const std::vector<Stage>& stages) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
+// What makes the first different stage less than a mistake of that stage, or of the frame.
+std::string_view remark_on(const check::Diagnosis& diagnosis) {
+  const Stage stage = *diagnosis.first;
+  const bool is_legal = check::is_legal(diagnosis.verdict, stage);
+  const bool follows_from_order = stage == Stage::visibility || stage == Stage::merge;
+  if (is_legal && check::differs_by_steps(diagnosis.verdict, stage))
+    return "; within the error of stepping in float, and the frame is legal";
+  if (is_legal && follows_from_order) return "; the frame is legal: ties, or fragments drawn in another order, do this";
+  if (check::is_by_frame_alone(diagnosis.verdict)) return ", or an earlier one: the frame alone was judged";
+  return "";
+}
+
 std::string first_line(const check::Diagnosis& diagnosis) {
   if (!diagnosis.first && !diagnosis.wrong.empty()) {
     return fmt::format("none; legal, but not by the dialect's tie rule: {}", stage_names(diagnosis.wrong));
@@ -42,13 +54,7 @@ std::string first_line(const check::Diagnosis& diagnosis) {
     if (c.stage == *diagnosis.first && c.outcome == Outcome::different) by.push_back(title_of(c.judge));
   }
   if (by.empty()) return fmt::format("{} (failed)", name_of(*diagnosis.first));
-  const bool is_legal = check::differs_by_steps(diagnosis.verdict, *diagnosis.first) &&
-                        check::is_legal(diagnosis.verdict, *diagnosis.first);
-  const std::string_view remark = is_legal ? "; within the error of stepping in float, and the frame is legal"
-                                  : check::is_by_frame_alone(diagnosis.verdict)
-                                      ? ", or an earlier one: the frame alone was judged"
-                                      : "";
-  return fmt::format("{} (against {}){}", name_of(*diagnosis.first), fmt::join(by, "; "), remark);
+  return fmt::format("{} (against {}){}", name_of(*diagnosis.first), fmt::join(by, "; "), remark_on(diagnosis));
 }
 
 std::string finding_text(const check::Finding& f) {
