@@ -126,13 +126,6 @@ std::size_t turn_of(Vertices mine, Vertices theirs, const Corners& corners) {
   return best;
 }
 
-bool is_within(const Vec4<double>& a, const Vec4<double>& b, double error) {
-  for (int c = 0; c < 4; ++c) {
-    if (!(difference(a[c], b[c]) <= error)) return false;
-  }
-  return true;
-}
-
 // `loosely`: vertices on planes whose cuts rounding decides about are held to the triangle and the planes alone.
 template <class At>
 void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const Corners& corners, double factor,
@@ -183,9 +176,10 @@ void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const
       meter.value(distance_from_edge(v, corners, 0) / u, factor, at("off its edge"), 0, 0);
       continue;
     }
-    const bool is_copy = copies > 0 && is_within(v.p_clip, w.p_clip, copies * unit);  // whatever made it
-    meter.value(v.cut == w.cut || is_copy ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
-    if (!w.cut || (!v.cut && is_copy)) {
+    // Told from none: a cut within rounding of a vertex of the mesh.
+    const bool as_copy = copies > 0 && v.cut != w.cut;
+    meter.value(v.cut == w.cut || as_copy ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
+    if (!w.cut || as_copy) {
       for (int c = 0; c < 4; ++c) {
         meter.value(difference(v.p_clip[c], w.p_clip[c]) / unit, copies, at("p_clip"), v.p_clip[c], w.p_clip[c]);
         meter.value(difference(v.color[c], w.color[c]) / u, copies * corners.color_scale, at("color"), v.color[c],

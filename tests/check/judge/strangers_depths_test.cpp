@@ -182,5 +182,23 @@ TEST(ClearDepth, HalfWayBetweenTwoCodesMayBeEitherOfAStrangers) {
   EXPECT_EQ(outcome(5033164, true), Outcome::different);
 }
 
+// A view volume of [0,w] in z keeps clip positions a rounding off; ours are copies.
+TEST(StrangersPositions, MayBeARoundingOffWhereNoPlaneCuts) {
+  const Scene scene = two_draws();
+  const auto exact = exact::make_exact();
+  Capture candidate = exact->capture(scene, {.records = StageSet::all()});
+  ClipVertex<double>& v = candidate.records.polygons.vertices.at(0);
+  ASSERT_FALSE(v.cut);
+  v.p_clip.z = float_above(v.p_clip.z);
+  const Legal none;
+  for (const bool foreign : {false, true}) {
+    std::vector<Comparison> out;
+    const Case c{
+        .scene = scene, .candidate = candidate, .legal = none, .referee = exact.get(), .rows = out, .foreign = foreign};
+    run_exact_stage(c, *exact, Stage::clip, "exact");
+    EXPECT_EQ(out.at(0).outcome == Outcome::different, !foreign);
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::check
