@@ -32,8 +32,8 @@ double error_of_cuts(const Projected& scene, const Triangle& t) {
 
 }  // namespace
 
-bool owns_ties(C::TieRule rule, glm::dvec2 inward) {
-  using enum C::TieRule;
+bool owns_ties(Conventions::TieRule rule, glm::dvec2 inward) {
+  using enum Conventions::TieRule;
   if (rule == inclusive || rule == exclusive) return rule == inclusive;
   const bool left = rule == left_bottom || rule == left_top, bottom = rule == left_bottom || rule == right_bottom;
   return inward.x != 0 ? (inward.x > 0) == left : (inward.y > 0) == bottom;

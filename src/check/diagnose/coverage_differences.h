@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "check/diagnose/evidence.h"
+#include "check/verdict/measure.h"
 
 namespace plumbline::check {
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "capture/by_conventions.h"
+#include "check/bounds/open_pixels.h"
 #include "check/judge/captures.h"
 #include "check/judge/failing_stage.h"
 #include "check/judge/judge_records.h"
