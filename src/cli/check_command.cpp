@@ -120,8 +120,8 @@ bool may_be_conventions(const CheckOptions& o, std::span<const check::SceneVerdi
   return all.differs > all.holds;
 }
 
-// What a run has come to.
-struct CheckRun {
+// Outcome of a run: its head, and what each scene came to.
+struct JudgedRun {
   report::RunHead head;
   std::vector<check::SceneVerdict> verdicts;
   std::vector<check::Settled> settled;
@@ -130,7 +130,7 @@ struct CheckRun {
 };
 
 // Judges the scenes, and prints each one's rows.
-void judge_all(const std::vector<Scene>& scenes, CheckRules& rules, CheckRun& run) {
+void judge_all(const std::vector<Scene>& scenes, CheckRules& rules, JudgedRun& run) {
   const CheckOptions& o = rules.options;
   fmt::print("{}", report::table_head());
   const auto take = [&](JudgedScene judged) {
@@ -147,7 +147,7 @@ void judge_all(const std::vector<Scene>& scenes, CheckRules& rules, CheckRun& ru
   if (rules.kept) rules.kept->store.trim(kMostKept);
 }
 
-std::string summary_of(const CheckRules& rules, const CheckRun& run, bool holds, double seconds) {
+std::string summary_of(const CheckRules& rules, const JudgedRun& run, bool holds, double seconds) {
   const CheckOptions& o = rules.options;
   std::string out = not_asked_line(o);
   if (!o.candidate.command.empty()) {
@@ -162,7 +162,7 @@ std::string summary_of(const CheckRules& rules, const CheckRun& run, bool holds,
 }
 
 // Writes the files that the options ask for.
-void write_outputs(CheckRules& rules, const CheckRun& run, const std::optional<report::Rubric>& rubric,
+void write_outputs(CheckRules& rules, const JudgedRun& run, const std::optional<report::Rubric>& rubric,
                    const std::string& summary) {
   const CheckOptions& o = rules.options;
   const bool outside = !o.candidate.command.empty();
@@ -210,7 +210,7 @@ int check(const CheckOptions& given) {
                             {"--grades", o.grades}};
   require_outputs(outputs, {"--report", o.report}, inputs_of(o, scenes));
   require_folders(o, scenes);
-  CheckRun run{{{}, o.fault, o.against, !o.golden.empty(), shard, {}}, {}, {}, {}, {}};
+  JudgedRun run{{{}, o.fault, o.against, !o.golden.empty(), shard, {}}, {}, {}, {}, {}};
   if (!o.golden.empty()) rules.goldens.emplace(o.golden, check::GoldenSet::Access::read);
   if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
   // A page shows what both sides drew, and a reference with a fault is none of this program's judges.

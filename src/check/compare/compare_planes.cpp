@@ -228,9 +228,8 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y, limits);
     double bound = bounds.depth + offsets.of(candidate.records, id),
            diff = std::min(difference(z, z_ref), difference(z + bounds.line_shift_depth, z_ref));
-    for (const EdgeValue& edge : edge_values(triangles_of(candidate.records, id), x, y, limits)) {
+    for (const EdgeValue& edge : edge_values(triangles_of(candidate.records, id), x, y, limits))
       diff = std::min(diff, difference(edge.depth, z_ref));
-    }
     beneath.each(x, y, z, factor, [&](double apart, double its_bound) {
       bound = std::max(bound, its_bound);
       diff = std::min(diff, difference(z + apart, z_ref));
@@ -247,24 +246,22 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
   const FragmentBounds bounds(scene, candidate, reference, factor);
   return where_winners_agree(a, b, &Planes::shaded, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const Place place{x, y, id, "color", true};
-    if (id == kBackground) {
+    if (id == kBackground)
       return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
-    }
     const FragmentBound bound = bounds.of_winner(id, x, y);
     meter.suspect(bound.reason);
     const std::vector<EdgeValue> edges = values_beside(scene, candidate, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
-      if (!std::isfinite(bound.color[c])) {
-        if (std::isnan(w) && std::isfinite(v)) {
-          meter
-              .ambiguous();  // a plane without area comes to 0 / 0 in the reference, which says nothing of the candidate
-        } else {
-          open_value(meter, v, place, w);
-        }
+      double diff = std::min(difference(v, w), difference(v + bound.line_shift[c], w));
+      for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
+      const bool is_open = !std::isfinite(bound.color[c]);
+      // A plane without area comes to 0 / 0 in the reference, which says nothing of the candidate.
+      if (is_open && std::isnan(w) && std::isfinite(v)) {
+        meter.ambiguous();
+      } else if (is_open) {
+        open_value(meter, v, place, w);
       } else {
-        double diff = std::min(difference(v, w), difference(v + bound.line_shift[c], w));
-        for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
         meter.value(diff / u, bound.color[c] / u, place, v, w, bound.apart[c] / u);
       }
     }
@@ -290,9 +287,8 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
         continue;
       }
       double diff = difference(v, w);
-      for (const EdgeValue& edge : edges) {
+      for (const EdgeValue& edge : edges)
         diff = std::min(diff, difference(std::round(scale * std::clamp(edge.color[c], 0.0, 1.0)), w));
-      }
       if (fragment.line_shift[c] != 0 && a.shaded.size() == a.color.size()) {
         const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.line_shift[c];
         diff = std::min(diff, difference(std::round(scale * std::clamp(along, 0.0, 1.0)), w));

@@ -31,8 +31,8 @@ struct Diagnosis {
   /// 1. the first of `wrong` that explains pixels of the picture;
   /// 2. the stage of first_different(), unless it holds in the row `per_stage` and `wrong` names a later stage;
   /// 3. the first of `wrong`.
-  /// Of a foreign candidate, two kinds of stages do not count while another stage of `wrong` differs otherwise: coverage
-  /// that differs by legal fragments alone (which never is the headline), and a stage that differs by steps (verdict.h).
+  /// Stages that do not count, of a foreign candidate: coverage that differs by legal fragments alone, and, where
+  /// another stage differs by more, a stage that differs by steps (verdict.h).
   std::optional<Stage> first;
   std::vector<Stage> wrong;  ///< every stage that is wrong by itself, in order
   /// One for each of `wrong`, those first that explain most pixels; of the first different stage where there is none.

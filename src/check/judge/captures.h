@@ -1,4 +1,4 @@
-// What the candidate and its references are asked for, so that a scene is judged.
+// Captures that a scene is judged by: the candidate's, and its references'.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ bool more_than(std::uint64_t most_fragments, const Capture& capture);
 /// budget. Throws what Renderer::capture() throws.
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments);
 
-/// What each reference answered, in the references' order.
+/// Captures and refusals of the references, in their order.
 struct Answers {
   std::vector<Capture> captures;
   std::vector<std::optional<Refusal>> refusals;
 };
 
-/// Of each reference: geometry records; coverage records where lines are drawn; planes, except of a referee and of an
+/// Captures of the references: geometry records; coverage records where lines are drawn; planes, except of a referee and of an
 /// oracle that is not asked for legal answers; legal answers, where `legal` and they fit the budget.
 Answers ask_references(const Scene& scene, std::span<const Reference> references, bool legal,
                        const Conventions& conventions);

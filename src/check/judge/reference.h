@@ -1,4 +1,4 @@
-// What a candidate is judged by.
+// Reference that a candidate is judged by.
 #pragma once
 
 #include <string>

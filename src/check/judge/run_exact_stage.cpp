@@ -23,7 +23,7 @@ double from_origin(const Case& c, Stage stage) { return c.foreign ? tolerance(Pr
 double corner_roundings(const Case& c) { return c.foreign ? 4 : 0; }
 
 // Roundings of a stranger's clip positions that no plane cuts, u of the largest coordinate: of a view volume [0,w] in z,
-// z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again.
+// z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again (largest seen: 1.2 u).
 double copied_vertices(const Case& c) { return c.foreign ? 4 : 0; }
 
 // Compares a varying in the stage's comparator, in place of the colour.
