@@ -16,7 +16,7 @@ inline Scene suite_scene(const std::string& name) {
 
 /// All but the big models, read once.
 inline const std::vector<Scene>& suite_scenes() {
-  static const std::vector<Scene> kScenes = [] {
+  static const std::vector<Scene> kAll = [] {
     const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
     std::vector<Scene> out;
     for (const auto& file : find_scenes(folder)) {
@@ -24,7 +24,7 @@ inline const std::vector<Scene>& suite_scenes() {
     }
     return out;
   }();
-  return kScenes;
+  return kAll;
 }
 
 }  // namespace plumbline

@@ -1,24 +1,15 @@
-// Known faults that a frame may show: those of `plumb list faults`, and faults of a viewport, of a depth test, of
-// writing the file.
+// Known faults that a frame may show: those of `plumb list faults`, states that are ignored (ignored_states.h), and
+// faults of a viewport, of a depth test, of writing the file.
 #pragma once
 
-#include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "cli/likely/frames_apart.h"
+#include "cli/likely/known_fault.h"
 #include "cli/options/renderers.h"
 
 namespace plumbline::cli {
-
-/// A known fault, and what it changes: the scene, a stage, the finished frame.
-struct KnownFault {
-  std::string stage, name, says;  ///< stage: "file" where the frame is written
-  std::function<void(Scene&)> of_scene = {};
-  std::string of_stage = {};  ///< a name of `plumb list faults`; empty: the fault changes no stage
-  std::function<void(ColorAndDepth&)> of_frame = {};
-};
 
 /// Whether the fault is of one of these stages: one of the viewport is of `window`, one of a file of `merge`.
 bool is_of(const StageSet& stages, const KnownFault& fault);

@@ -1,0 +1,120 @@
+// Renderers that ignore a state of the scene: the judge names the stage, and the fault draws their frame.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "check/diagnose/diagnose.h"
+#include "cli/likely/ignored_states.h"
+#include "cli/likely/known_faults.h"
+#include "cli/likely/lookalikes.h"
+#include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
+#include "tests/check/suite_scenes.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+// Our renderer, which draws the scene as the fault changes it.
+class Ignoring : public Renderer {
+ public:
+  explicit Ignoring(const KnownFault& fault) : fault_(fault) {}
+  RendererInfo info() const override { return inner_->info(); }
+  Capture capture(const Scene& scene, const Request& request) override {
+    return inner_->capture(changed(scene), request);
+  }
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
+    return inner_->run_stage(changed(scene), stage, in);
+  }
+
+ private:
+  Scene changed(Scene scene) const {
+    fault_.of_scene(scene);
+    return scene;
+  }
+  const KnownFault& fault_;
+  std::unique_ptr<Renderer> inner_ = pipeline::make_pipeline();
+};
+
+struct Case {
+  std::string fault, scene;
+  std::string named = "";  // the stage that the judge names; empty: the fault's own
+};
+
+// Without fog or texture, our renderer interpolates no distance or texture coordinates: vertices are lit without them.
+const std::vector<Case> kStates = {{"matrices.transforms_ignored", "cull/both_windings"},
+                                   {"light.lighting_ignored", "light/turned_away"},
+                                   {"light.ambient_ignored", "light/turned_away"},
+                                   {"light.specular_ignored", "light/turned_away"},
+                                   {"light.emission_ignored", "light/turned_away"},
+                                   {"light.two_sides_ignored", "light/two_sided_flat"},
+                                   {"light.phong_shading_ignored", "phong/reflection"},
+                                   {"clip.flat_shading_ignored", "frame/one_pixel"},
+                                   {"clip.depth_clamp_ignored", "notes/tinyrenderer_floor"},
+                                   {"window.cull_ignored", "cull/both_windings"},
+                                   {"window.polygon_mode_ignored", "lines/beneath_points"},
+                                   {"window.line_width_ignored", "lines/wide_zero"},
+                                   {"window.point_size_ignored", "lines/beneath_points"},
+                                   {"coverage.scissor_ignored", "scissor/rows_from_top"},
+                                   {"depth.polygon_offset_ignored", "polygon_offset/beyond_the_near_plane"},
+                                   {"texture.filters_ignored", "texture/beyond_one_rgba16"},
+                                   {"texture.levels_ignored", "texture/constant_row"},
+                                   {"shade.texture_ignored", "texture/borders_at_centres", "light"},
+                                   {"shade.fog_ignored", "fog/thick_black", "light"},
+                                   {"visibility.depth_func_ignored", "depth/functions"},
+                                   {"visibility.depth_test_ignored", "depth/interpenetrating"},
+                                   {"visibility.depth_mask_ignored", "masks/no_depth"},
+                                   {"visibility.clear_depth_ignored", "depth/clear_z16"},
+                                   {"visibility.stencil_ignored", "stencil/funcs"},
+                                   {"merge.blend_ignored", "frame/rgba16_blend"},
+                                   {"merge.blend_equation_ignored", "blend/equations"},
+                                   {"merge.logic_op_ignored", "logic_op/sixteen_rgba12"},
+                                   {"merge.clear_color_ignored", "depth/clear_z16"}};
+
+TEST(IgnoredStates, are_named_by_their_stages_and_as_likely_faults) {
+  const auto exact = exact::make_exact();
+  const check::Reference references[] = {{"exact", exact.get()}};
+  for (const Case& c : kStates) {
+    SCOPED_TRACE(c.fault + " in " + c.scene);
+    const Scene scene = suite_scene(c.scene);
+    const std::vector<KnownFault> set = ignored_states(scene);
+    const auto fault = std::ranges::find(set, c.fault, &KnownFault::name);
+    ASSERT_NE(fault, set.end());
+    Ignoring candidate(*fault);
+    const check::Diagnosis diagnosis = check::diagnose_in_brief(scene, candidate, references);
+    ASSERT_TRUE(diagnosis.first.has_value());
+    EXPECT_EQ(name_of(*diagnosis.first), c.named.empty() ? fault->stage : c.named);
+    const Lookalikes found = lookalikes(scene, {draw_with(std::vector{&*fault}, scene, {}), {}, {}});
+    EXPECT_TRUE(found.whole) << found.text;
+    EXPECT_NE(found.text.find(c.fault), std::string::npos) << found.text;
+  }
+}
+
+// Every state of the table is set in some scene of the suite, and the suite sets no other.
+TEST(IgnoredStates, of_the_suite_are_all_tried) {
+  std::set<std::string> in_suite, tried;
+  for (const Scene& scene : suite_scenes()) {
+    for (const KnownFault& fault : ignored_states(scene)) in_suite.insert(fault.name);
+  }
+  for (const Case& c : kStates) tried.insert(c.fault);
+  EXPECT_EQ(in_suite, tried);
+}
+
+TEST(IgnoredStates, at_their_defaults_are_no_faults) {
+  Scene scene;
+  scene.draws.emplace_back();
+  scene.draws[0].lit = false;
+  scene.draws[0].depth_func = DepthFunc::always;
+  std::vector<std::string> names;
+  for (const KnownFault& fault : ignored_states(scene)) names.push_back(fault.name);
+  EXPECT_EQ(names, std::vector<std::string>{"visibility.depth_func_ignored"}) << "it is as if always were less";
+  scene.draws[0].depth_func = DepthFunc::less;
+  for (const KnownFault& fault : ignored_states(scene)) EXPECT_EQ(fault.name, "visibility.depth_test_ignored");
+}
+
+}  // namespace
+
+}  // namespace plumbline::cli
