@@ -52,20 +52,30 @@ void learn_rows_by_any(Prober& prober) {
   }
 }
 
+// Leaves the conventions open that the probe has not found.
+void leave_open(Prober& prober, const Probe& probe, const char* why) {
+  const std::vector<LearnedRow>& rows = prober.learned.rows;
+  for (const std::string_view name : probe.names) {
+    if (std::ranges::find(rows, name, &LearnedRow::name) == rows.end()) prober.open(words_of(name), why);
+  }
+}
+
 }  // namespace
 
 Learned learn(Renderer& renderer) {
+  constexpr int kMostFailures = 3;  // each may take the whole time limit
   Prober prober(renderer);
   learn_rows_by_any(prober);
+  int failures = 0;
   for (const Probe& probe : probes()) {
     try {
       probe.find(prober);
     } catch (const Unsupported& e) {
-      for (const std::string_view name : probe.names) {
-        const bool is_found =
-            std::ranges::find(prober.learned.rows, name, &LearnedRow::name) != prober.learned.rows.end();
-        if (!is_found) prober.open(words_of(name), e.what());
-      }
+      leave_open(prober, probe, e.what());
+    } catch (const RendererFailed& e) {
+      if (++failures == kMostFailures) throw;
+      leave_open(prober, probe, e.what());
+      prober.unexplained(e.what());
     }
   }
   for (const char* words : {"polygons' cuts", "lines and points", "places of samples"}) {

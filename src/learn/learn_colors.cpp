@@ -81,6 +81,23 @@ Fit best_fit(const Plane<glm::vec4>& color) {
   return best;
 }
 
+// What explains the colours where codes are made of more bits, or of 256 c, and then truncated; empty: that does not.
+std::string said_of_powers_of_two(const Plane<glm::vec4>& color) {
+  const std::pair<const char*, double (*)(double)> kRules[] = {
+      {"256 c, truncated, and at most 255", [](double c) { return std::min(255.0, std::floor(256 * c)); }},
+      {"4095 c in 12 bits, truncated, whose last 4 bits are dropped (c * 4095 >> 4); 255 c + 0.5, truncated, is right",
+       [](double c) { return std::floor(std::floor(4095 * c) / 16); }}};
+  for (const auto& [says, code_of] : kRules) {
+    std::size_t fits = 0;
+    for (int i = 0; i < kAll; ++i) {
+      for (int k = 0; k < 3; ++k)
+        fits += std::round(255 * static_cast<double>(pixel_of(color, i)[k])) == code_of(between_codes(i)[k]) ? 1 : 0;
+    }
+    if (fits * 50 >= kColors * 49) return fmt::format("; {} are {}", fits, says);
+  }
+  return "";
+}
+
 }  // namespace
 
 void learn_colors(Prober& prober) {
@@ -92,7 +109,8 @@ void learn_colors(Prober& prober) {
   const Fit fit = best_fit(color);
   const std::string evidence = fmt::format("{} of {} colours", fit.most, kColors);
   if (!fit.explains()) {
-    prober.fits_none(rounding, evidence + " at most are explained by one rounding and encoding");
+    prober.fits_none(rounding,
+                     evidence + " at most are explained by one rounding and encoding" + said_of_powers_of_two(color));
     return prober.open(encoding, "the rounding is open");
   }
   if (fit.order != std::array{0, 1, 2}) {

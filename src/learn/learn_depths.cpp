@@ -158,6 +158,10 @@ void learn_format(Prober& prober) {
     take(C::Depth::z32f, is_float, "floats");
     return prober.found(rounding, "nearest", "depths are floats");
   }
+  if (nearly_all(of_24.near, n) && !nearly_all(of_24.codes, n)) {
+    take(C::Depth::z32f, of_24.near, "within a code of 24 bits, and no codes: floats");
+    return prober.found(rounding, "nearest", "depths are floats");
+  }
   if (nearly_all(of_24.near, n)) return learn_16_bits(prober, given, of_24);
   prober.fits_none(format, "the depths given are left neither as codes of 16 or 24 bits nor as floats");
   prober.open(rounding, "the format is open");

@@ -158,12 +158,23 @@ glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
   Scene scene = probe_frame("shift", 16, 16);
   add_triangles(scene, rectangle(sample + 2.75, sample + 9.75, 0.5, glm::vec4(1)));
   const Plane<glm::vec4> color = prober.draw(scene).color;
-  glm::dvec2 out(16);
-  for (int y = 0; y < 16; ++y) {
-    for (int x = 0; x < 16; ++x)
-      if (is_white(color(x, y))) out = glm::min(out, glm::dvec2(x, y));
+  constexpr int kHalf = 4;  // of the rectangle's side: pixels astray, or on its border, tell nothing
+  std::array<int, 16> in_column{}, in_row{};
+  for (std::size_t y = 0; y < 16; ++y) {
+    for (std::size_t x = 0; x < 16; ++x) {
+      if (is_white(color(static_cast<int>(x), static_cast<int>(y)))) ++in_column[x], ++in_row[y];
+    }
   }
-  return out;
+  const auto first = [](const std::array<int, 16>& counts) {
+    return static_cast<double>(std::ranges::find_if(counts, [](int n) { return n >= kHalf; }) - counts.begin());
+  };
+  return {first(in_column), first(in_row)};
+}
+
+// Edges tell a sample's place but for whole pixels. At a pixel's lower or left border it may as well be at the upper or
+// right one, of the pixel before.
+void take_far_border(double& sample, double& shift) {
+  if (sample == 0 && shift == -1) sample = 1, shift = 0;
 }
 
 }  // namespace
@@ -202,9 +213,10 @@ void learn_grid(Prober& prober) {
   const auto placed = [](double at) {
     return (std::abs(at - std::round(2 * at) / 2) < 1.5 / kLong ? std::round(2 * at) / 2 : at) + 0.0;  // -0 is 0
   };
-  const glm::dvec2 sample = {placed(columns->sample), placed(rows->sample)};
+  glm::dvec2 sample = {placed(columns->sample), placed(rows->sample)};
   const bool in_pixel = glm::clamp(sample, 0.0, 1.0) == sample;
-  const glm::dvec2 shift = rows->bits == 0 || rows->bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
+  glm::dvec2 shift = rows->bits == 0 || rows->bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
+  for (const int axis : {0, 1}) take_far_border(sample[axis], shift[axis]);
   if (!in_pixel || shift != glm::dvec2(0)) {
     prober.unexplained(fmt::format("{}: the sample is at {}, and the picture is shifted by {:.0f}, {:.0f} pixels",
                                    in_pixel ? "the picture is shifted" : "a sample lies outside its pixel",

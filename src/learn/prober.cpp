@@ -11,12 +11,20 @@ namespace plumbline::learn {
 Planes Prober::draw(const Scene& scene) {
   Scene probe = scene;
   for (Draw& draw : probe.draws) draw.depth_func = depth_func;
-  Capture left = renderer_.capture(probe, Request{});
+  Capture left = captured(probe);
   if (left.planes.color.empty()) throw Unsupported("it leaves no planes.color");
   to_dialect(learned.conventions, left);
   if (std::ranges::find(learned.pictures, scene.name, &ProbePicture::name) == learned.pictures.end())
     learned.pictures.push_back({scene.name, left.planes.color});
   return std::move(left.planes);
+}
+
+Capture Prober::captured(const Scene& probe) {
+  try {
+    return renderer_.capture(probe, Request{});
+  } catch (const RendererFailed& e) {
+    throw RendererFailed(fmt::format("{}: {}", probe.name, e.what()));
+  }
 }
 
 void Prober::found(const ConventionWords& words, std::string_view value, std::string evidence) {

@@ -56,6 +56,7 @@ class Prober {
   DepthFunc depth_func = DepthFunc::always;
 
  private:
+  Capture captured(const Scene& probe);  // names the probe where the renderer fails
   Renderer& renderer_;
 };
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "capture/by_conventions.h"
 #include "scene/draw_index.h"
 
 namespace plumbline {
@@ -75,24 +77,36 @@ Plane<glm::vec4> picture_of(const Scene& scene, Renderer& renderer) {
   return color;
 }
 
-// Pictures of primitives alone, by the first of two depth functions that the renderer draws; every depth passes both.
+// Depth functions that a cleared depth of 1 passes: all depths the first two, all but 1 the last. Without a far plane
+// that cuts, and in formats of few codes, whole areas have depth 1.
+std::vector<DepthFunc> functions_of_probes(const Scene& scene, const Conventions& conventions) {
+  std::vector<DepthFunc> out = {DepthFunc::always, DepthFunc::less_equal};
+  const DepthFormat format = depth_format_of(scene.frame, conventions);
+  const bool cuts = !scene.depth_clamp && conventions.depth_planes == Conventions::DepthPlanes::cut;
+  if (cuts && format != DepthFormat::z8 && format != DepthFormat::z16) out.push_back(DepthFunc::less);
+  return out;
+}
+
+// Pictures of primitives alone, by the first of functions_of_probes() that the renderer draws.
 class PicturesAlone {
  public:
-  PicturesAlone(const Scene& scene, Renderer& renderer) : scene_(scene), renderer_(renderer) {}
+  PicturesAlone(const Scene& scene, Renderer& renderer)
+      : scene_(scene), renderer_(renderer), funcs_(functions_of_probes(scene, renderer.info().conventions)) {}
   Plane<glm::vec4> of(std::uint32_t primitive) {
-    try {
-      return picture_of(primitive_alone(scene_, primitive, func_), renderer_);
-    } catch (const Unsupported&) {
-      if (func_ == DepthFunc::less_equal || primitive > 0) throw;
-      func_ = DepthFunc::less_equal;
-      return picture_of(primitive_alone(scene_, primitive, func_), renderer_);
+    while (true) {
+      try {
+        return picture_of(primitive_alone(scene_, primitive, funcs_.front()), renderer_);
+      } catch (const Unsupported&) {
+        if (funcs_.size() == 1 || primitive > 0) throw;
+        funcs_.erase(funcs_.begin());
+      }
     }
   }
 
  private:
   const Scene& scene_;
   Renderer& renderer_;
-  DepthFunc func_ = DepthFunc::always;
+  std::vector<DepthFunc> funcs_;  // the first: the one that is drawn by
 };
 
 }  // namespace

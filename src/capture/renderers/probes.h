@@ -12,7 +12,8 @@ namespace plumbline {
 inline constexpr std::size_t kMostProbes = 4096;
 
 /// The scene with one primitive alone: white on black, in a frame cleared to depth 1, nothing blended, so that its
-/// pixels are those covered. `func`: always, or less_equal, which every depth of [0,1] passes, too.
+/// pixels are those covered. `func`: always; or less_equal, which every depth of [0,1] passes, too; or less, which all
+/// but 1 pass.
 Scene primitive_alone(const Scene& scene, std::uint32_t primitive, DepthFunc func = DepthFunc::always);
 /// The scene whose colours tell the winners: each primitive has one colour, nothing is blended; depth and stencil tests
 /// are the scene's. `rounding`: how the renderer rounds colours to 8-bit codes.

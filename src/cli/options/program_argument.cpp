@@ -123,10 +123,13 @@ class Program : public Renderer {
     everything.records = StageSet::all();
     Capture left = capture_of(scene, everything);
     const bool has_winners = !left.planes.id.empty();
-    if (program_.probes) probe(scene, left);
+    const std::string unprobed = program_.probes ? probe(scene, left) : "";
     const bool are_probed = !has_winners && !left.planes.id.empty();
     const std::unique_ptr<Renderer> replayed = replayed_of(std::move(left), scene);
     info_ = replayed->info();
+    for (const Stage stage : {Stage::coverage, Stage::visibility}) {
+      if (!unprobed.empty() && !info_[stage].shows) info_[stage].reason = "--each-primitive: " + unprobed;
+    }
     if (are_probed) info_[Stage::visibility].contradicted = false;  // the program has not said who they are
     for (std::size_t i = 0; i < given(program_.from); ++i) {
       info_.stages[i] = {false, false, fmt::format("given: --from {}", program_.from), false, true};
@@ -152,11 +155,13 @@ class Program : public Renderer {
     }
   }
 
-  // What cannot be probed is not shown.
-  void probe(const Scene& scene, Capture& left) {
+  // Returns why coverage or winners cannot be probed; empty: they are.
+  std::string probe(const Scene& scene, Capture& left) {
     try {
       add_probed_planes(scene, *process_, left);
-    } catch (const Unsupported&) {
+      return "";
+    } catch (const Unsupported& error) {
+      return error.what();
     }
   }
 
