@@ -6,6 +6,20 @@
 
 namespace plumbline::math {
 
+namespace {
+
+WindowCorners window_corners(const Projected& scene, const Triangle& t) {
+  WindowCorners out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Corner& corner = scene.corners[t.corner[i]];
+    const double z_view = 0.5 + 0.5 * corner.z / corner.v.z;
+    out[i] = {glm::dvec2(corner.v) / corner.v.z + 0.5 * glm::dvec2(scene.width, scene.height), to_window(t, z_view)};
+  }
+  return out;
+}
+
+}  // namespace
+
 double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, double altitude) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
@@ -13,13 +27,23 @@ double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, d
   double out = 0;
   if (t.cut) out = depth_error_of_pieces(arithmetic, altitude, size);
   if (!t.ahead) return out;
-  WindowCorners corners;
+  return std::max(out, depth_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size));
+}
+
+double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, double altitude) {
+  const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
+  if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
+  const glm::dvec2 size(scene.width, scene.height);
+  double out = 0;
+  if (t.cut) out = 3 * depth_error_of_pieces(arithmetic, altitude, size);
+  if (!t.ahead) return out;
+  WindowCorners corners = window_corners(scene, t);
+  double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Corner& corner = scene.corners[t.corner[i]];
-    const double z_view = 0.5 + 0.5 * corner.z / corner.v.z;
-    corners[i] = {glm::dvec2(corner.v) / corner.v.z + 0.5 * size, to_window(t, z_view)};
+    for (std::size_t k = 0; k < 3; ++k) corners[k].z = i == k ? 1 : 0;
+    sum += depth_error(arithmetic, corners, glm::dvec2(d) + 0.5 * size);
   }
-  return std::max(out, depth_error(arithmetic, corners, glm::dvec2(d) + 0.5 * size));
+  return std::max(out, sum);
 }
 
 }  // namespace plumbline::math

@@ -1,4 +1,4 @@
-// Error of depths that a renderer interpolates in float, as it declares (capture/float_depth.h).
+// Error of what a renderer interpolates in float, by the arithmetic that it declares (capture/float_depth.h).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,5 +10,9 @@ namespace plumbline::math {
 /// Error of a triangle's depth at the ray d [window z]; if the triangle is cut, of its pieces' depths, too, whose
 /// altitudes are at least `altitude` [pixels]. 0 for a renderer in double; infinite where a piece may have no area.
 double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double altitude);
+
+/// Sum of the errors of the corners' shares at the ray d (window barycentrics): each is the depth of a plane that is 1
+/// at one corner and 0 at the others. As error_in_float() otherwise.
+double shares_error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double altitude);
 
 }  // namespace plumbline::math

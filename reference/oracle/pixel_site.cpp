@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/arithmetic/error_in_float.h"
+
 namespace plumbline::math {
 
 namespace {
@@ -165,7 +167,11 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const bool turned = !certain && (t.cut || t.thin);
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
   const glm::dvec2 from_place = weight * moved + (snapped ? weight * scene.step : turned ? scene.step : 0);
-  return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y +
+  // Errors of the corners' shares, whose sum over that of the shares' weights is `shares`, move the value by at most
+  // shares / (1 - shares) of the spread.
+  const double shares = near_end * shares_error_in_float(scene, t, centre, piece_altitude(certain));
+  const double by_shares = shares == 0 ? 0 : shares < 1 ? shares / (1 - shares) * spread : kInfinity;
+  return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + by_shares +
                      value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +
                                      32 * kFloatRounding * near_end * size)};
 }
