@@ -76,11 +76,16 @@ class FragmentColor {
     const auto corner = [&](std::size_t i) { return of_corner(site_.scene.corners[site_.t.corner[i]]); };
     return {corner(0), corner(1), corner(2)};
   }
-  // A colour that vertices are lit to: smooth or flat.
+  // A colour that vertices are lit to: smooth or flat. A renderer that declares float arithmetic may interpolate between
+  // three equal corners, too.
   BoundedFour of_vertices(auto of_corner) const {
-    const std::array<BoundedFour, 3> corners = at_corners(of_corner);
-    BoundedFour out = draw_.shading == Shading::flat ? corners[2] : site_.attribute(corners, certain_);
-    out.bound += draw_.shading == Shading::flat ? 4 * kFloatRounding : overshoot(out.value, corners);
+    std::array<BoundedFour, 3> corners = at_corners(of_corner);
+    const bool is_flat = draw_.shading == Shading::flat;
+    if (is_flat) corners[0] = corners[1] = corners[2];
+    const bool is_given =
+        is_flat && site_.scene.conventions.depth_arithmetic == Conventions::DepthArithmetic::in_double;
+    BoundedFour out = is_given ? corners[2] : site_.attribute(corners, certain_);
+    out.bound += is_flat ? 4 * kFloatRounding : overshoot(out.value, corners);
     return out;
   }
   // Replaces the colour, and with a separate specular colour that one, by those that the fragment is lit to.

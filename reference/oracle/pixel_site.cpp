@@ -147,7 +147,7 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
     return std::max({a.x, a.y, a.z, a.w});
   };
   glm::dvec4 value(0), slope_x(0), slope_y(0);
-  double error = 0, spread = 0, size = 1;
+  double error = 0, spread = 0, most = 0;
   const glm::dvec3 n_sum = n[0] + n[1] + n[2];
   for (std::size_t i = 0; i < 3; ++i) {
     const double b = e[static_cast<glm::length_t>(i)] / sum;
@@ -155,7 +155,7 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
     slope_x += (n[i].x - b * n_sum.x) / sum * corners[i].value;
     slope_y += (n[i].y - b * n_sum.y) / sum * corners[i].value;
     error = std::max(error, corners[i].bound);
-    size = std::max(size, largest(corners[i].value));
+    most = std::max(most, largest(corners[i].value));
   }
   for (const BoundedFour& corner : corners) spread = std::max(spread, largest(corner.value - value));
   // A far point of a triangle that comes near has small e_i: their errors are those of the near end, w / w_min larger.
@@ -167,13 +167,13 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const bool turned = !certain && (t.cut || t.thin);
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
   const glm::dvec2 from_place = weight * moved + (snapped ? weight * scene.step : turned ? scene.step : 0);
-  // Errors of the corners' shares, whose sum over that of the shares' weights is `shares`, move the value by at most
-  // shares / (1 - shares) of the spread.
+  // Errors of the corners' shares, `shares` of their sum by w, move numerator and denominator apart, as planes of their
+  // own: by shares / (1 - shares) of twice the largest value.
   const double shares = near_end * shares_error_in_float(scene, t, centre, piece_altitude(certain));
-  const double by_shares = shares == 0 ? 0 : shares < 1 ? shares / (1 - shares) * spread : kInfinity;
+  const double by_shares = shares == 0 ? 0 : shares < 1 ? shares / (1 - shares) * 2 * most : kInfinity;
   return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + by_shares +
                      value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +
-                                     32 * kFloatRounding * near_end * size)};
+                                     32 * kFloatRounding * near_end * std::max(most, 1.0))};
 }
 
 double PixelSite::slopes_off(bool certain) const {

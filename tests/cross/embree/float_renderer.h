@@ -24,7 +24,7 @@ struct Habits {
   bool in_double = false;               ///< the transform in double, rounded at the end
   bool snapped_planes = false;          ///< depth and colour by planes through the snapped corners
   bool reversed_clip = false;           ///< cut at the far plane first, at the right one last
-  FloatDepth depth = FloatDepth::none;  ///< how depths are interpolated in float; none: in double
+  FloatDepth depth = FloatDepth::none;  ///< how depths and colours are interpolated in float; none: in double
   double jitter = 0;                    ///< largest relative error of a clip coordinate [2^-24]
 };
 
@@ -171,9 +171,16 @@ class FloatRenderer {
       c += b * v[i].inv_w * v[i].color;
     }
     if (habits_.depth != FloatDepth::none) {
-      const auto corner = [&](std::size_t i) { return glm::dvec3(v[i].p, v[i].z); };
-      const float in_float = depth_in_float(habits_.depth, {corner(0), corner(1), corner(2)}, glm::vec2(centre));
-      if (std::isfinite(in_float)) z = static_cast<double>(in_float);
+      const auto in_float = [&](auto value_of) {
+        const auto corner = [&](std::size_t i) { return glm::dvec3(v[i].p, value_of(v[i])); };
+        return static_cast<double>(depth_in_float(habits_.depth, {corner(0), corner(1), corner(2)}, glm::vec2(centre)));
+      };
+      const double z_in_float = in_float([](const WindowPoint& p) { return p.z; });
+      if (std::isfinite(z_in_float)) {
+        z = z_in_float;
+        inv_w = in_float([](const WindowPoint& p) { return p.inv_w; });
+        for (int k = 0; k < 4; ++k) c[k] = in_float([k](const WindowPoint& p) { return p.inv_w * p.color[k]; });
+      }
     }
     ++count(x, y);
     const double code = depth_code(scene_.frame.depth, std::clamp(z, 0.0, 1.0));

@@ -108,8 +108,8 @@ TEST_P(Soundness, NorByTheTieRuleThatTheyDeclare) {
               own.pixels, other.counts, coarser.counts);
 }
 
-// Depths in float are legal where that arithmetic is declared, and not all are where none is.
-TEST_P(Soundness, NorByTheArithmeticOfDepthsThatTheyDeclare) {
+// Depths and colours in float are legal where that arithmetic is declared, and not all are where none is.
+TEST_P(Soundness, NorByTheArithmeticThatTheyDeclare) {
   using enum Conventions::DepthArithmetic;
   using test::FloatDepth;
   Outside declared, undeclared;
@@ -126,11 +126,13 @@ TEST_P(Soundness, NorByTheArithmeticOfDepthsThatTheyDeclare) {
   }
   EXPECT_EQ(declared.winners, 0) << declared.first;
   EXPECT_EQ(declared.depths, 0) << declared.first;
-  std::printf("kind %d: %ld pixels, %.3f %% ambiguous; illegal undeclared: %d winners, %d depths\n", GetParam(),
-              declared.pixels, 100.0 * static_cast<double>(declared.ambiguous) / static_cast<double>(declared.pixels),
-              undeclared.winners, undeclared.depths);
+  EXPECT_EQ(declared.colors, 0) << declared.first;
+  std::printf("kind %d: %ld pixels, %.3f %% ambiguous; illegal undeclared: %d winners, %d depths, %d colours\n",
+              GetParam(), declared.pixels,
+              100.0 * static_cast<double>(declared.ambiguous) / static_cast<double>(declared.pixels),
+              undeclared.winners, undeclared.depths, undeclared.colors);
   constexpr int kSlivers = 5;
-  EXPECT_TRUE(GetParam() != kSlivers || undeclared.depths > 0);
+  EXPECT_TRUE(GetParam() != kSlivers || (undeclared.depths > 0 && undeclared.colors > 0));
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, Soundness, ::testing::Range(0, test::kSceneKinds));
 
