@@ -43,6 +43,7 @@ struct Builder {
   bool has_stencil = false;        ///< of the frame
   bool has_line_or_point = false;  ///< lines, points, or polygons drawn as such
   std::string_view color_format = "rgba8";
+  bool opaque = false;  // every alpha is 1
   Object textures;
   std::vector<std::string> texture_names;
   std::vector<bool> decal_fits;  ///< of each: decal is defined for its format

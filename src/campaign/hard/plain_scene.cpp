@@ -1,4 +1,4 @@
-// Scenes of opaque, unlit triangles in the geometry of hard scenes.
+// Scenes of opaque, unlit triangles in the geometry of hard scenes: no alpha but 1, and nothing culled.
 #include "campaign/hard/builder.h"
 #include "campaign/hard/hard_scene.h"
 
@@ -20,7 +20,6 @@ Object plain_draw(Builder& b) {
   if (of.made) out.put("transforms", place_made(b));
   if (b.choose.chance(70)) out.put("material", Object("diffuse", json_numbers(rgba(b))));
   out.put("lit", "false");
-  if (b.choose.chance(20)) out.put_word("cull", b.choose.word({"back", "back", "front"}));
   return out;
 }
 
@@ -28,6 +27,7 @@ Object plain_draw(Builder& b) {
 
 std::string plain_scene(campaign::Choices choices, const std::string& description) {
   Builder b(std::move(choices));
+  b.opaque = true;
   choose_view(b);
   const Object onto = projection(b);
   std::vector<Object> draws;

@@ -41,7 +41,10 @@ Object light(Builder& b) {
 }  // namespace
 
 std::vector<double> rgb(Builder& b) { return {share(b), share(b), share(b)}; }
-std::vector<double> rgba(Builder& b) { return {share(b), share(b), share(b), share(b)}; }
+std::vector<double> rgba(Builder& b) {
+  const double red = share(b), green = share(b), blue = share(b), alpha = share(b);
+  return {red, green, blue, b.opaque ? 1 : alpha};
+}
 
 std::string rgba_list(Builder& b, std::size_t count) {
   std::vector<std::string> out;

@@ -1,5 +1,6 @@
 #include "cli/likely/ignored_states.h"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -58,6 +59,19 @@ bool reset_equation(Draw& draw) {
   return reset(draw.merge.blend->alpha.equation, BlendEquation::add) || rgb;
 }
 
+// Fragments are lit with `change`; of draws that are lit at their vertices, plumb list faults has the fault.
+Reset of_lit_fragments(std::function<bool(Scene&)> change) {
+  return [change](Scene& scene) { return std::ranges::any_of(scene.draws, is_lit_per_fragment) && change(scene); };
+}
+template <class ResetLight>
+Reset of_lights(ResetLight reset_light) {
+  return [reset_light](Scene& scene) {
+    bool changed = false;
+    for (Light& light : scene.lights) changed |= reset_light(light);
+    return changed;
+  };
+}
+
 bool reset_ambient(Scene& scene) {
   bool changed = reset(scene.light_model.ambient, glm::vec3(0));
   for (Light& light : scene.lights) changed |= reset(light.ambient, glm::vec3(0));
@@ -76,6 +90,8 @@ std::vector<IgnoredState> all_states() {
       {"matrices", "transforms", "draws are not moved, turned or scaled",
        of_draws([](Draw& d) { return !std::exchange(d.transforms, {}).empty(); })},
       {"light", "lighting", "draws are not lit", of_draws([](Draw& d) { return reset(d.lit, false); })},
+      {"light", "lights", "no light shines but the ambient one",
+       [](Scene& s) { return !std::exchange(s.lights, {}).empty(); }},
       {"light", "ambient", "no ambient light is added", reset_ambient},
       {"light", "specular", "there are no highlights",
        of_materials([=](Material& m) { return reset(m.specular, black); })},
@@ -105,6 +121,12 @@ std::vector<IgnoredState> all_states() {
        })},
       {"texture", "levels", "all texels are of the largest level",
        of_samplers([](Sampler& s) { return reset(s.min, without_levels(s.min)); })},
+      {"shade", "attenuation", "lights do not fade with their distance",
+       of_lit_fragments(of_lights([](Light& l) { return reset(l.attenuation, glm::vec3(1, 0, 0)); }))},
+      {"shade", "spot", "spot lights shine to all sides",
+       of_lit_fragments(of_lights([](Light& l) { return reset(l.spot); }))},
+      {"shade", "local_viewer", "highlights are seen from infinitely far away, not from the eye",
+       of_lit_fragments([](Scene& s) { return reset(s.light_model.local_viewer, false); })},
       {"shade", "texture", "textures are left out", of_draws([](Draw& d) { return reset(d.texture); })},
       {"shade", "fog", "there is no fog", of_draws([](Draw& d) { return reset(d.fog); })},
       {"visibility", "depth_func", "all depth tests are less",
