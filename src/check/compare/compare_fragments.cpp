@@ -174,7 +174,7 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
 }
 
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor) {
+                           double factor, double copies) {
   const DrawIndex draws(scene);
   return each_fragment("colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(),
                        [&](Meter& meter, std::size_t i) {
@@ -184,7 +184,7 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
                          if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
                          const Draw* draw = draws.draw(candidate.triangles[c.triangle].primitive);
                          if (draw == nullptr || is_plain(scene, *draw))
-                           return add(meter, a, b, Vec4<double>(u), 0, place);
+                           return add(meter, a, b, Vec4<double>(u), 0, place, copies * u * glm::abs(b));
                          const Vec4<double> bound = shade_error(scene, *draw, fours_of(candidate, i), {}, {1});
                          if (!std::isfinite(bound.x)) {  // a light may come or go
                            meter.ambiguous();
@@ -194,7 +194,7 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
                          }
                          for (int k = 0; k < 4; ++k) {
                            if (bound[k] == 0) {
-                             meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k]);
+                             meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k], copies * std::abs(b[k]));
                            } else {
                              meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
                            }

@@ -35,21 +35,23 @@ bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes,
   return false;
 }
 
+std::vector<ClipVertex<double>> cut_by(std::span<const ClipVertex<double>> polygon, std::size_t plane, double by) {
+  std::vector<ClipVertex<double>> left;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipVertex<double>&v = polygon[i], &next = polygon[(i + 1) % polygon.size()];
+    const double d = distances(v.p_clip)[plane] - by, d_next = distances(next.p_clip)[plane] - by;
+    if (d >= 0) left.push_back(v);
+    if ((d >= 0) == (d_next >= 0)) continue;
+    const double t = d / (d - d_next);
+    left.push_back({glm::mix(v.p_clip, next.p_clip, t), glm::mix(v.color, next.color, t), true});
+  }
+  return left;
+}
+
 std::vector<ClipVertex<double>> clipped(const Corners& c, double by) {
   std::vector<ClipVertex<double>> polygon;
   for (std::size_t i = 0; i < 3; ++i) polygon.push_back({c.p_clip[i], c.color[i], false});
-  for (std::size_t p = 0; p < c.planes; ++p) {
-    std::vector<ClipVertex<double>> left;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const ClipVertex<double>&v = polygon[i], &next = polygon[(i + 1) % polygon.size()];
-      const double d = distances(v.p_clip)[p] - by, d_next = distances(next.p_clip)[p] - by;
-      if (d >= 0) left.push_back(v);
-      if ((d >= 0) == (d_next >= 0)) continue;
-      const double t = d / (d - d_next);
-      left.push_back({glm::mix(v.p_clip, next.p_clip, t), glm::mix(v.color, next.color, t), true});
-    }
-    polygon = std::move(left);
-  }
+  for (std::size_t p = 0; p < c.planes; ++p) polygon = cut_by(polygon, p, by);
   return polygon;
 }
 

@@ -27,6 +27,8 @@ bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance);
 /// open: the difference w - x of two floats, rounded to float, keeps its sign.
 bool needs_no_cut(const Corners& c);
 
+/// The polygon clipped by one plane, of distances(), moved inwards by `by` [w], by Sutherland-Hodgman in double.
+std::vector<ClipVertex<double>> cut_by(std::span<const ClipVertex<double>> polygon, std::size_t plane, double by);
 /// The triangle clipped by planes moved inwards by `by` (negative: outwards) [w], by Sutherland-Hodgman in double.
 std::vector<ClipVertex<double>> clipped(const Corners& c, double by);
 

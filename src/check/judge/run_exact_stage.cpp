@@ -8,6 +8,7 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
+#include "check/compare/cut_at_sides.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
@@ -26,6 +27,17 @@ double corner_roundings(const Case& c) { return c.foreign ? 4 : 0; }
 // z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again (largest seen: 1.2 u).
 double copied_vertices(const Case& c) { return c.foreign ? 4 : 0; }
 
+// Roundings of a stranger's colours that no step of shading changes, u of the colour: c * 255 and c / 255 are one each,
+// as in GAMES101's framework, and so are a product by a white light and its sum (largest seen: 1 u).
+double copied_colors(const Case& c) { return c.foreign ? 4 : 0; }
+
+// A stranger may leave the sides to the raster.
+Measurement compare_clipped(const Case& c, const Records<double>& mine, const Records<double>& theirs, double factor,
+                            bool flat_applies) {
+  if (!c.foreign) return compare_polygons(c.scene, mine, theirs, factor, flat_applies);
+  return compare_polygons(c.scene, cut_at_sides(mine), theirs, factor, flat_applies, copied_vertices(c));
+}
+
 // Compares a varying in the stage's comparator, in place of the colour.
 Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records<double>& theirs) {
   const Scene& scene = c.scene;
@@ -36,7 +48,7 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
   if (v == Varying::secondary) a.varyings[Varying::back_color] = mine.varyings[Varying::back_secondary];
   const double factor = tolerance(Profile::exact, stage).factor;
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
-  if (stage == Stage::clip) return compare_polygons(scene, a, b, factor, is_lit(v), copied_vertices(c));
+  if (stage == Stage::clip) return compare_clipped(c, a, b, factor, is_lit(v));
   if (stage == Stage::window) return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c));
   return compare_attributes(a, b, factor, from_origin(c, stage));
 }
@@ -154,9 +166,7 @@ void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeI
     case Stage::matrices: break;
     case Stage::vertex: return add([&](double f) { return compare_vertices(c.scene, mine, theirs, f, f); });
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
-    case Stage::clip:
-      return add(
-          [&](double f) { return varyings(compare_polygons(c.scene, mine, theirs, f, true, copied_vertices(c))); });
+    case Stage::clip: return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, true)); });
     case Stage::window:
       return add([&](double f) {
         return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c)));
@@ -180,8 +190,8 @@ void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeI
       return add([&](double f) { return compare_texels(c.scene, mine, theirs, f, legal); });
     }
     case Stage::shade:
-      if (is_plain(c.scene)) return c.add(name, stage, compare_shaded(c.scene, mine, theirs, 0));
-      return add([&](double f) { return compare_shaded(c.scene, mine, theirs, f); });
+      if (is_plain(c.scene)) return c.add(name, stage, compare_shaded(c.scene, mine, theirs, 0, copied_colors(c)));
+      return add([&](double f) { return compare_shaded(c.scene, mine, theirs, f, copied_colors(c)); });
     case Stage::visibility: return compare_visible(c, made, name);
     case Stage::merge: {
       const Planes expected = with_either_clear_depth(c, made.planes);

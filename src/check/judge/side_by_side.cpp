@@ -7,6 +7,7 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
+#include "check/compare/cut_at_sides.h"
 #include "check/compare/legal_window.h"
 #include "check/judge/rows.h"
 #include "check/judge/stage_inputs.h"
@@ -77,7 +78,8 @@ void compare_shown(const Case& c, const Capture& theirs, Stage stage, const Judg
     case Stage::vertex:
       return add(compare_vertices(c.scene, mine, theirs.records, 0, factor_of(stage), Inversion::in_float));
     case Stage::light: return add(compare_lit(c.scene, mine, theirs.records, factor_of(stage), {}, kOfMesa));
-    case Stage::clip: return add(compare_polygon_positions(mine, theirs.records, factor_of(stage)));
+    case Stage::clip:
+      return add(compare_polygon_positions(c.foreign ? cut_at_sides(mine) : mine, theirs.records, factor_of(stage)));
     case Stage::window:
       return add(
           compare_window_equal(mine, theirs.records, factor_of(stage), turned_outlines(c.scene, mine, theirs.records)));

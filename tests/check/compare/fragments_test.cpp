@@ -283,6 +283,19 @@ TEST_F(Fragments, ShadedInThickFogUnderflowGradually) {
   EXPECT_TRUE(fails(moved(-0x1p-131))) << "flushed to zero";
 }
 
+// Of a draw without fog, texture or light per fragment the colour is that of the attributes.
+TEST_F(Fragments, ColoursThatNoStepChangesMayBeOffByCopies) {
+  const auto moved = [&](double by, double copies) {
+    Records<double> a = records;
+    a.shaded[3].color.r *= 1 + by * 0x1p-24;
+    return compare_shaded(scene, a, records, 0, copies);
+  };
+  EXPECT_TRUE(passes(moved(3.9, 4)));
+  EXPECT_TRUE(passes(moved(-3.9, 4)));
+  EXPECT_TRUE(fails(moved(4.1, 4)));
+  EXPECT_TRUE(fails(moved(0.1, 0)));
+}
+
 TEST_F(Fragments, CarriedVaryingsAreEqual) {
   records.varyings[Varying::texture].vertices.assign(3, {0.5, 0.25, 0, 1});
   const Compare carried = [](const auto& a, const auto& b) { return compare_carried(Varying::texture, a, b); };
