@@ -37,13 +37,7 @@ double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dve
   double out = 0;
   if (t.cut) out = 3 * depth_error_of_pieces(arithmetic, altitude, size);
   if (!t.ahead) return out;
-  WindowCorners corners = window_corners(scene, t);
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) corners[k].z = i == k ? 1 : 0;
-    sum += depth_error(arithmetic, corners, glm::dvec2(d) + 0.5 * size);
-  }
-  return std::max(out, sum);
+  return std::max(out, shares_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size));
 }
 
 }  // namespace plumbline::math

@@ -11,8 +11,7 @@ namespace plumbline::math {
 /// altitudes are at least `altitude` [pixels]. 0 for a renderer in double; infinite where a piece may have no area.
 double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double altitude);
 
-/// Sum of the errors of the corners' shares at the ray d (window barycentrics): each is the depth of a plane that is 1
-/// at one corner and 0 at the others. As error_in_float() otherwise.
+/// shares_error() at the ray d; as error_in_float() otherwise.
 double shares_error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double altitude);
 
 }  // namespace plumbline::math

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/float_depth.h"
 #include "reference/arithmetic/error_in_float.h"
 
 namespace plumbline::math {
@@ -167,11 +168,8 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const bool turned = !certain && (t.cut || t.thin);
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
   const glm::dvec2 from_place = weight * moved + (snapped ? weight * scene.step : turned ? scene.step : 0);
-  // Errors of the corners' shares, `shares` of their sum by w, move numerator and denominator apart, as planes of their
-  // own: by shares / (1 - shares) of twice the largest value.
   const double shares = near_end * shares_error_in_float(scene, t, centre, piece_altitude(certain));
-  const double by_shares = shares == 0 ? 0 : shares < 1 ? shares / (1 - shares) * 2 * most : kInfinity;
-  return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + by_shares +
+  return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + attribute_error(shares, most) +
                      value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +
                                      32 * kFloatRounding * near_end * std::max(most, 1.0))};
 }

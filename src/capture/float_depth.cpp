@@ -88,6 +88,21 @@ double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners&
   return kU * (out + 1);
 }
 
+double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p) {
+  double out = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    WindowCorners share = corners;
+    for (std::size_t k = 0; k < 3; ++k) share[k].z = i == k ? 1 : 0;
+    out += depth_error(arithmetic, share, p);
+  }
+  return out;
+}
+
+double attribute_error(double shares, double most) {
+  if (shares == 0) return 0;
+  return shares < 1 ? 2 * most * shares / (1 - shares) : kInfinity;
+}
+
 // A triangle of altitude h has A >= h L, L its longest side, at most the window's diagonal D: no less than h^2. Depths
 // are at most 1, a plane's slope is at most 2 / h, products of differences are at most L D, those of positions at most
 // 4 times the window's area.

@@ -33,6 +33,14 @@ double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 /// below 1 each. in_double: 0. in_float: the larger of the first two. in_float_from_origin: of all three.
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
 
+/// Sum of the errors of the corners' shares at p (window barycentrics): each is the depth of a plane that is 1 at one
+/// corner and 0 at the others.
+double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
+
+/// Error of an attribute, of at most `most` at the corners, whose numerator and denominator are planes of their own:
+/// `shares` is shares_error(), times the largest corner's 1/w over the pixel's. Infinite from 1 on.
+double attribute_error(double shares, double most);
+
 /// Bound of depth_error() for every triangle within a window [pixels], of altitudes of at least `altitude` [pixels].
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, glm::dvec2 window);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "capture/float_depth.h"
+#include "check/bounds/barycentrics.h"
 #include "check/bounds/bounds.h"
 #include "check/bounds/mean_bounds.h"
 #include "check/bounds/shade_bounds.h"
@@ -146,8 +147,27 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
                        });
 }
 
+namespace {
+
+// Error of a colour by the arithmetic that the conventions declare.
+double declared_error(const Conventions& conventions, const WindowTriangle<double>& t, const Covered& c) {
+  if (conventions.depth_arithmetic == Conventions::DepthArithmetic::in_double || t.corners < 3) return 0;
+  const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
+  const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double here = std::abs(glm::dot(barycentrics(t, c.x + 0.5, c.y + 0.5).value, inv_w)),
+               nearest = std::max({std::abs(inv_w.x), std::abs(inv_w.y), std::abs(inv_w.z)});
+  double most = 0;
+  for (const auto& corner : t.v) {
+    for (int k = 0; k < 4; ++k) most = std::max(most, std::abs(corner.color[k]));
+  }
+  const double shares = shares_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5});
+  return attribute_error(shares * nearest / here, most);
+}
+
+}  // namespace
+
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
-                               double from_origin) {
+                               double from_origin, const Conventions& conventions) {
   return each_fragment(
       "attributes", "u", candidate, candidate.attributes.size(), reference.attributes.size(),
       [&](Meter& meter, std::size_t i) {
@@ -165,9 +185,11 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
           }
           return;
         }
-        const Vec4<double> allowance =
-            from_origin > 0 ? from_origin * u * bounds_from_origin(candidate.triangles[c.triangle], c.x, c.y).color
-                            : Vec4<double>(0);
+        const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
+        const Vec4<double> allowance = from_origin > 0
+                                           ? from_origin * u * bounds_from_origin(triangle, c.x, c.y).color +
+                                                 declared_error(conventions, triangle, c)
+                                           : Vec4<double>(0);
         add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound + kGradualUnderflow, factor,
             {c.x, c.y, c.triangle, "color"}, allowance);
       });

@@ -91,9 +91,9 @@ Measurement compare_open_covered(const Capture& candidate, const Records<double>
 /// truncated code would pass).
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions = {}, double from_origin = 0);
-/// `from_origin`: as in compare_depth().
+/// `from_origin`: as in compare_depth(); with it, the error of the arithmetic that the conventions declare.
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
-                               double from_origin = 0);
+                               double from_origin = 0, const Conventions& conventions = {});
 /// Of plain draws bit for bit (as floats), but for `copies` u of the value; of others `factor` u of each step's magnitude
 /// (shade_bounds.h).
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,

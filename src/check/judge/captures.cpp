@@ -1,6 +1,7 @@
 #include "check/judge/captures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "check/judge/stage_copy.h"
@@ -73,6 +74,18 @@ Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const
     return oracle.capture(scene, request).legal;
   } catch (const std::exception&) {  // it has nothing to say
     return {};
+  }
+}
+
+void normalize_normals(const Scene& scene, Records<double>& records) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  for (std::size_t d = 0; d < ranges.size(); ++d) {
+    if (scene.draws[d].normals != Normals::normalize) continue;
+    for (std::uint32_t i = 0; i < ranges[d].vertex_count && ranges[d].first_vertex + i < records.vertices.size(); ++i) {
+      Vec3<double>& n = records.vertices[ranges[d].first_vertex + i].n_eye;
+      const double length = glm::length(n);
+      if (length > 0 && std::isfinite(length)) n /= length;
+    }
   }
 }
 

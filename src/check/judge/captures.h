@@ -20,6 +20,10 @@ bool more_than(std::uint64_t most_fragments, const Capture& capture);
 /// budget. Throws what Renderer::capture() throws.
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments);
 
+/// Brings a stranger's n_eye to unit length in draws whose normals are normalized: where it does so, at vertices or
+/// later, is its own affair. Zero, infinite and NaN normals stay as they are.
+void normalize_normals(const Scene& scene, Records<double>& records);
+
 /// Captures and refusals of the references, in their order.
 struct Answers {
   std::vector<Capture> captures;

@@ -122,7 +122,10 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     verdict.comparisons.push_back(candidate_failed(scene, candidate, referee, refusal->why, shown));
     mine = run_alone(scene, candidate, shown);
   } else if (referee != nullptr) {
-    if (foreign) turn_as_made(*seen, shown, *referee, mine);
+    if (foreign) {
+      normalize_normals(scene, mine.records);
+      turn_as_made(*seen, shown, *referee, mine);
+    }
     if (legal == nullptr && referee->info().legal)
       where_apart = legal_where_apart(scene, mine, answers.captures, *referee, conventions);
     made = make_stages(*seen, mine, *referee, conventions);

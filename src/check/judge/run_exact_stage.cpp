@@ -50,7 +50,7 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
   if (stage == Stage::clip) return compare_clipped(c, a, b, factor, is_lit(v));
   if (stage == Stage::window) return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c));
-  return compare_attributes(a, b, factor, from_origin(c, stage));
+  return compare_attributes(a, b, factor, from_origin(c, stage), c.conventions);
 }
 
 // Whether a foreign candidate declares a tie rule, and that or its grid is another than exact's.
@@ -184,7 +184,9 @@ void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeI
     }
     case Stage::depth: return add([&](double f) { return depths_by_exact(c, made, f); });
     case Stage::attributes:
-      return add([&](double f) { return varyings(compare_attributes(mine, theirs, f, from_origin(c, stage))); });
+      return add([&](double f) {
+        return varyings(compare_attributes(mine, theirs, f, from_origin(c, stage), c.conventions));
+      });
     case Stage::texture: {
       const std::vector<TexelRange>* legal = c.foreign ? &made.legal.texels : nullptr;
       return add([&](double f) { return compare_texels(c.scene, mine, theirs, f, legal); });

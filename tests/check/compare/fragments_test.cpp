@@ -206,6 +206,34 @@ TEST_F(Fragments, DepthsInFloatAreHeldToTheirBound) {
   }
 }
 
+// Of a stranger; the arithmetic that it declares adds its error.
+TEST_F(Fragments, AttributesInFloatAreHeldToTheirBound) {
+  using enum Conventions::DepthArithmetic;
+  const auto slack = [&](Conventions::DepthArithmetic arithmetic, double from_origin) {
+    Conventions conventions;
+    conventions.depth_arithmetic = arithmetic;
+    double low = 0, high = 1;  // the largest error that passes
+    for (int step = 0; step < 50; ++step) {
+      const double by = (low + high) / 2;
+      Records<double> a = records;
+      a.attributes[5].color.r += by;
+      (passes(compare_attributes(a, records, 10, from_origin, conventions)) ? low : high) = by;
+    }
+    return low;
+  };
+  const auto& v = records.triangles[1].v;
+  const WindowCorners corners = {v[0].p_win, v[1].p_win, v[2].p_win};
+  const Covered& c = records.covered[5];
+  const double undeclared = slack(in_double, 8);
+  EXPECT_GT(undeclared, 0);
+  for (const auto arithmetic : {in_float, in_float_from_origin}) {
+    const double shares = shares_error(arithmetic, corners, {c.x + 0.5, c.y + 0.5});
+    EXPECT_GT(slack(arithmetic, 8) - undeclared, 0.9 * shares * 2 * v[0].color.a);
+    EXPECT_EQ(slack(arithmetic, 0), slack(in_double, 0)) << "plumbline's own";
+  }
+  EXPECT_GT(slack(in_float_from_origin, 8), slack(in_float, 8));
+}
+
 TEST_F(Fragments, AttributesAreHeldToTheirBound) {
   const Vec4<double> bound = bounds_of_mean(records.triangles[1], 3, 3);
   for (int c = 0; c < 4; ++c) {
