@@ -115,7 +115,7 @@ BoundedFour FragmentColor::color() const {
   if (draw_.texture) color = textured(color);
   if (draw_.lit && separate)
     color = {color_sum(color.value, secondary.value), color.bound + secondary.bound + kFloatRounding};
-  if (is_two_sided() && (site_.t.thin || site_.t.sign == 0)) color.bound = kInfinity;  // it may show either face
+  if (is_two_sided() && site_.may_show_either_face(certain_)) color.bound = kInfinity;
   if (draw_.fog && std::isfinite(color.bound)) fog(color);
   return color;
 }

@@ -46,6 +46,8 @@ class PixelSite {
   double piece_altitude(bool certain) const;
   /// S: factor by which the errors of a plane's corners may grow at a pixel of its triangle; infinite: without bound.
   double snap_weight(bool certain) const;
+  /// Whether snapping may turn over the triangle, or the piece of it that covers the pixel.
+  bool may_show_either_face(bool certain) const;
   /// An attribute at the pixel's centre, with its bound, by the renderer's interpolation; extrapolated beyond the
   /// triangle's border, as renderers do. `corners`: the attribute at the corners.
   BoundedFour attribute(const std::array<BoundedFour, 3>& corners, bool certain) const;

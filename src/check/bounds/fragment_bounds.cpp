@@ -79,11 +79,16 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
 }
 
 // Factor by which a pixel's centre enlarges errors of the corners: the sum of its barycentric weights' absolute values,
-// 1 inside the triangle.
+// 1 inside the triangle. Along a line, which ends beside its last pixel's centre, the larger of that by the projection
+// and that by the major axis.
 double enlarged(WindowTriangle<double> t, int x, int y) {
   for (int k = 0; k < 3; ++k) t.v[static_cast<std::size_t>(k)].color = {k == 0, k == 1, k == 2, 0};
-  const Vec4<double> weights = glm::abs(color_of_plane(t, x, y).value);
-  return std::max(1.0, weights.x + weights.y + weights.z);
+  const auto sum_of = [](const Vec4<double>& weights) {
+    return std::abs(weights.x) + std::abs(weights.y) + std::abs(weights.z);
+  };
+  const Vec4<double> weights = color_of_plane(t, x, y).value;
+  const double by_plane = std::max(1.0, sum_of(weights));
+  return t.corners == 2 ? std::max(by_plane, sum_of(weights + bounds_from_origin(t, x, y).line_shift_color)) : by_plane;
 }
 
 // Error of the candidate's interpolation (ledger, exact.attributes): beside the eye, where a corner is far away, it may
@@ -319,7 +324,7 @@ FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) co
     double times = std::numeric_limits<double>::infinity();  // of the triangle that the centre is in, or nearest to
     for (const WindowTriangle<double>& t : triangles_of(records_, primitive)) {
       if (is_near(t, x, y)) mean = glm::max(mean, mean_error(t, x, y));
-      times = std::min(times, t.corners == 3 ? enlarged(t, x, y) : 1);
+      times = std::min(times, t.corners > 1 ? enlarged(t, x, y) : 1);
     }
     if (!std::isfinite(times)) times = 1;  // a sliver's plane, which has no bound either
     return {factor_ * u * plane.color, plane.line_shift_color, lit_error(p, times) + mean, {}};

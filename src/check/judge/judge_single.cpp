@@ -123,7 +123,8 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     mine = run_alone(scene, candidate, shown);
   } else if (referee != nullptr) {
     if (foreign) {
-      normalize_normals(scene, mine.records);
+      // Fragments are lit by interpolated normals, whose lengths count.
+      mine.records = with_unit_normals(scene, std::move(mine.records), OfDraws::lit_at_vertices);
       turn_as_made(*seen, shown, *referee, mine);
     }
     if (legal == nullptr && referee->info().legal)

@@ -9,6 +9,7 @@
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
 #include "check/compare/cut_at_sides.h"
+#include "check/judge/captures.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
@@ -164,7 +165,10 @@ void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeI
   const auto varyings = [&](Measurement color) { return with_varyings(c, stage, std::move(color), theirs); };
   switch (stage) {
     case Stage::matrices: break;
-    case Stage::vertex: return add([&](double f) { return compare_vertices(c.scene, mine, theirs, f, f); });
+    case Stage::vertex:
+      return add([&](double f) {
+        return compare_vertices(c.scene, c.foreign ? with_unit_normals(c.scene, mine) : mine, theirs, f, f);
+      });
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
     case Stage::clip: return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, true)); });
     case Stage::window:

@@ -34,6 +34,26 @@ std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Compa
   return exact.empty() || against.size() < 2 ? std::set<std::string>() : against;
 }
 
+// Whether the row, of merge, differs only at pixels where its reference has other winners, and is outvoted on these;
+// and exact, on the candidate's own records, and every other row of the stage hold.
+bool follows_from_winners(const Comparison& row, const std::vector<Comparison>& rows) {
+  const std::vector<glm::ivec2>& at = row.measurement.differing_at;
+  if (row.stage != Stage::merge || at.empty() || at.size() < row.measurement.differing) return false;
+  const Comparison* winners = nullptr;
+  bool by_exact = false;
+  for (const Comparison& other : rows) {
+    const bool own = other.judge.reference == row.judge.reference && other.judge.kind == row.judge.kind;
+    if (own && other.stage == Stage::visibility && other.outcome == Outcome::dispute) winners = &other;
+    if (other.stage != row.stage || own) continue;
+    if (fails(other)) return false;
+    by_exact |= other.judge.kind == Kind::per_stage && holds(other.outcome);
+  }
+  if (!by_exact || winners == nullptr) return false;
+  return std::ranges::all_of(at, [&](const glm::ivec2& pixel) {
+    return std::ranges::find(winners->measurement.differing_at, pixel) != winners->measurement.differing_at.end();
+  });
+}
+
 }  // namespace
 
 void settle_votes(std::vector<Comparison>& rows, bool plain) {
@@ -48,6 +68,10 @@ void settle_votes(std::vector<Comparison>& rows, bool plain) {
     if (against.empty()) continue;
     to_dispute(row, fmt::format("outvoted: the candidate is right by {}, and by exact's arithmetic on its own records",
                                 fmt::join(against, " and ")));
+  }
+  for (Comparison& row : rows) {
+    if (row.outcome == Outcome::different && follows_from_winners(row, rows))
+      to_dispute(row, "its winners at these pixels are outvoted, see visibility");
   }
 }
 

@@ -41,6 +41,13 @@ TEST(StrangersNormals, MayHaveAnyLengthWhereTheyAreNormalized) {
   }
 }
 
+TEST(StrangersNormals, MayHaveAnyLengthWhereFragmentsAreLit) {
+  const auto outcome = [](double by) { return outcome_of("phong/squashed", Stage::vertex, [=](auto& n) { n *= by; }); };
+  EXPECT_EQ(outcome(1), Outcome::within);
+  EXPECT_EQ(outcome(3), Outcome::within);
+  EXPECT_EQ(outcome(-3), Outcome::different);
+}
+
 TEST(StrangersNormals, HaveTheirLengthWhereTheyAreNot) {
   const auto outcome = [](double by) {
     return outcome_of("light/normals_grown", Stage::vertex, [=](auto& n) { n *= by; });

@@ -114,6 +114,34 @@ TEST(Votes, WhatIsSettledStandsInNoLaterStagesWay) {
   EXPECT_EQ(settled(all).outcome, Outcome::dispute);
 }
 
+// Embree alone misses a triangle at one pixel; nobody else can judge the frame's format.
+TEST(Votes, AFrameFollowsFromWinnersThatAreOutvoted) {
+  const auto all = [](std::vector<glm::ivec2> winners_at, std::vector<glm::ivec2> colors_at) {
+    std::vector<Comparison> out = {row("embree", Stage::merge, Outcome::different),
+                                   row("embree", Stage::visibility, Outcome::different),
+                                   row("osmesa", Stage::visibility, Outcome::equal),
+                                   row({"exact", Kind::per_stage}, Stage::visibility, Outcome::equal),
+                                   row({"exact", Kind::per_stage}, Stage::merge, Outcome::equal)};
+    out[0].measurement.differing = colors_at.size(), out[0].measurement.differing_at = std::move(colors_at);
+    out[1].measurement.differing_at = std::move(winners_at);
+    return out;
+  };
+  EXPECT_EQ(settled(all({{0, 4}, {1, 4}}, {{1, 4}})).outcome, Outcome::dispute);
+  EXPECT_EQ(settled(all({{0, 4}}, {{0, 4}, {1, 4}})).outcome, Outcome::different) << "a pixel more";
+  EXPECT_EQ(settled(all({}, {{1, 4}})).outcome, Outcome::different);
+  std::vector<Comparison> unlisted = all({{0, 4}}, {{0, 4}});
+  unlisted[0].measurement.differing = 2;
+  EXPECT_EQ(settled(unlisted).outcome, Outcome::different) << "not all pixels are listed";
+  for (const std::size_t needed : {3u, 4u}) {
+    std::vector<Comparison> without = all({{0, 4}}, {{0, 4}});
+    without[needed].outcome = Outcome::unsupported;
+    EXPECT_EQ(settled(without).outcome, Outcome::different) << needed;
+  }
+  std::vector<Comparison> also = all({{0, 4}}, {{0, 4}});
+  also.push_back(row({"exact", Kind::from_scene}, Stage::merge, Outcome::different));
+  EXPECT_EQ(settled(also).outcome, Outcome::different) << "another differs as well";
+}
+
 // Outcome of the first row after leave_recipes_to_exact().
 Outcome first_left(std::vector<Comparison> all) {
   leave_recipes_to_exact(all);
