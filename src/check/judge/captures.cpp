@@ -1,7 +1,6 @@
 #include "check/judge/captures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "check/judge/stage_copy.h"
@@ -75,20 +74,6 @@ Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const
   } catch (const std::exception&) {  // it has nothing to say
     return {};
   }
-}
-
-Records<double> with_unit_normals(const Scene& scene, Records<double> records, OfDraws of) {
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  for (std::size_t d = 0; d < ranges.size(); ++d) {
-    const Draw& draw = scene.draws[d];
-    if (draw.normals != Normals::normalize || (of == OfDraws::lit_at_vertices && is_lit_per_fragment(draw))) continue;
-    for (std::uint32_t i = 0; i < ranges[d].vertex_count && ranges[d].first_vertex + i < records.vertices.size(); ++i) {
-      Vec3<double>& n = records.vertices[ranges[d].first_vertex + i].n_eye;
-      const double length = glm::length(n);
-      if (length > 0 && std::isfinite(length) && std::abs(length - 1) > 0x1p-16) n /= length;
-    }
-  }
-  return records;
 }
 
 Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown) {

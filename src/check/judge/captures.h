@@ -20,12 +20,6 @@ bool more_than(std::uint64_t most_fragments, const Capture& capture);
 /// budget. Throws what Renderer::capture() throws.
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments);
 
-/// Draws of with_unit_normals(): all, or those that are lit at their vertices.
-enum class OfDraws { all, lit_at_vertices };
-/// Brings a stranger's n_eye to unit length, if that differs from 1 by more than 2^-16, in draws whose normals are
-/// normalized: where it does so, at vertices or later, is its own affair. Zero, infinite and NaN normals stay.
-Records<double> with_unit_normals(const Scene& scene, Records<double> records, OfDraws of = OfDraws::all);
-
 /// Captures and refusals of the references, in their order.
 struct Answers {
   std::vector<Capture> captures;

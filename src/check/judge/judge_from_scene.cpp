@@ -6,6 +6,7 @@
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
+#include "check/judge/unit_normals.h"
 
 namespace plumbline::check {
 
@@ -40,7 +41,7 @@ void judge_by_referee(const Case& c, const Records<double>& theirs, Stage stage,
         &row);
   } else if (stage == Stage::vertex) {
     const Tolerance& row = tolerance(Profile::exact, stage, "scene");
-    c.add(name, stage, compare_vertices(c.scene, mine, theirs, row.factor, row.factor, inversion), &row);
+    c.add(name, stage, compare_vertices(c.scene, vertex_records(c), theirs, row.factor, row.factor, inversion), &row);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/turn_triangles.h"
+#include "check/judge/unit_normals.h"
 #include "check/verdict/votes.h"
 
 namespace plumbline::check {

@@ -9,10 +9,10 @@
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
 #include "check/compare/cut_at_sides.h"
-#include "check/judge/captures.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
+#include "check/judge/unit_normals.h"
 
 namespace plumbline::check {
 
@@ -166,9 +166,7 @@ void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeI
   switch (stage) {
     case Stage::matrices: break;
     case Stage::vertex:
-      return add([&](double f) {
-        return compare_vertices(c.scene, c.foreign ? with_unit_normals(c.scene, mine) : mine, theirs, f, f);
-      });
+      return add([&](double f) { return compare_vertices(c.scene, vertex_records(c), theirs, f, f); });
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
     case Stage::clip: return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, true)); });
     case Stage::window:

@@ -9,9 +9,9 @@
 #include "check/compare/compare_texels.h"
 #include "check/compare/cut_at_sides.h"
 #include "check/compare/legal_window.h"
-#include "check/judge/captures.h"
 #include "check/judge/rows.h"
 #include "check/judge/stage_inputs.h"
+#include "check/judge/unit_normals.h"
 
 namespace plumbline::check {
 
@@ -77,8 +77,8 @@ void compare_shown(const Case& c, const Capture& theirs, Stage stage, const Judg
   switch (stage) {
     case Stage::matrices: return add(compare_rounded_matrices(mine, theirs.records, factor_of(stage)));
     case Stage::vertex:
-      return add(compare_vertices(c.scene, c.foreign ? with_unit_normals(c.scene, mine) : mine, theirs.records, 0,
-                                  factor_of(stage), Inversion::in_float));
+      return add(
+          compare_vertices(c.scene, vertex_records(c), theirs.records, 0, factor_of(stage), Inversion::in_float));
     case Stage::light: return add(compare_lit(c.scene, mine, theirs.records, factor_of(stage), {}, kOfMesa));
     case Stage::clip:
       return add(compare_polygon_positions(c.foreign ? cut_at_sides(mine) : mine, theirs.records, factor_of(stage)));

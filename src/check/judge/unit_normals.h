@@ -1,0 +1,17 @@
+// Normals of a stranger, which may normalize them at vertices or later.
+#pragma once
+
+#include "check/judge/scene_case.h"
+
+namespace plumbline::check {
+
+/// Draws of with_unit_normals().
+enum class OfDraws { all, lit_at_vertices };
+/// The records with n_eye at unit length, where that differs from 1 by more than 2^-16, in draws whose normals are
+/// normalized. Zero, infinite and NaN normals stay.
+Records<double> with_unit_normals(const Scene& scene, Records<double> records, OfDraws of);
+
+/// The candidate's records for comparisons of stage vertex: a stranger's normals at unit length.
+Records<double> vertex_records(const Case& c);
+
+}  // namespace plumbline::check
