@@ -126,10 +126,8 @@ double PixelSite::snap_weight(bool certain) const {
   return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
 }
 
-bool PixelSite::may_show_either_face(bool certain) const {
-  const double moved_apart = 2 * scene.snap;  // two corners, towards each other
-  return t.thin || t.sign == 0 || (t.cut && piece_altitude(certain) <= moved_apart);
-}
+// Pieces of a cut triangle that are thin lie along its border.
+bool PixelSite::may_show_either_face(bool certain) const { return t.thin || t.sign == 0 || (t.cut && !certain); }
 
 /// snap_weight() for the pixel's centre where the triangle covers a sample: the centre may be outside of the triangle
 /// by the sample's offset.
