@@ -36,7 +36,7 @@ void learn_clipping(Prober& prober) {
   }
   const auto near_to = [](int column, int expected) { return std::abs(column - expected) <= 1; };
   const bool tested = prober.depth_func != DepthFunc::always;  // and so not drawn beyond the cleared depth, 1
-  std::string evidence = "of depths from -0.5 to 1.5 none is drawn";
+  std::string evidence = "of depths from -0.5 to 1.5 none is drawn: triangles that reach beyond a plane are left out";
   if (first <= last)
     evidence = fmt::format("of depths from -0.5 to 1.5, those from {:.2f} to {:.2f} are drawn",
                            -0.5 + 2.0 * first / kFrameSize, -0.5 + 2.0 * (last + 1) / kFrameSize);
