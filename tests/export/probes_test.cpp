@@ -75,6 +75,28 @@ TEST(Probes, AreOfAnyFunctionThatEveryDepthPasses) {
   EXPECT_THROW(add_probed_planes(scene, renderer, capture = capture_of_nothing(scene)), Unsupported);
 }
 
+// Draws no depth_func but less.
+struct OfLess : Renderer {
+  RendererInfo info() const override { return {}; }
+  Capture capture(const Scene& scene, const Request& request) override {
+    if (scene.draws.front().depth_func != DepthFunc::less) throw Unsupported("depth_func");
+    return pipeline::make_pipeline()->capture(scene, request);
+  }
+};
+
+TEST(Probes, AreOfLessWhereTheFarPlaneCutsAndCodesAreMany) {
+  Scene scene = scene_named("coverage/shared_edges");
+  OfLess renderer;
+  Capture capture = capture_of_nothing(scene);
+  add_probed_planes(scene, renderer, capture);
+  EXPECT_EQ(capture.planes.count.values(), renderer.capture(scene, Request{}).planes.count.values());
+  scene.frame.depth = DepthFormat::z16;
+  EXPECT_THROW(add_probed_planes(scene, renderer, capture = capture_of_nothing(scene)), Unsupported);
+  scene.frame.depth = DepthFormat::z24;
+  scene.depth_clamp = true;
+  EXPECT_THROW(add_probed_planes(scene, renderer, capture = capture_of_nothing(scene)), Unsupported);
+}
+
 // Draws whole scenes, and no single primitive.
 struct WholeAlone : Renderer {
   RendererInfo info() const override { return {}; }

@@ -1,0 +1,96 @@
+// What plumb learn finds in renderers of courses: GAMES101's, CSCI-580's GzRender.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/files/conventions_file.h"
+#include "tests/learn/altered_renderers.h"
+
+namespace plumbline::learn {
+namespace {
+
+bool is_said(const C& conventions, const std::string& text) {
+  return std::ranges::any_of(conventions.unexplained,
+                             [&](const std::string& says) { return says.find(text) != says.npos; });
+}
+
+// Floats that lie between codes of 24 bits, off by less than half of one.
+TEST(LearnCourses, DepthsThatAreKeptAsFloatsAreFloats) {
+  const C found = learned(std::make_unique<Altered>(pipeline::make_pipeline(), [](Capture& c) {
+    for (double& z : c.planes.depth.values()) z += 0.4 / 16777215;
+  }));
+  EXPECT_EQ(found.depth_format, C::Depth::z32f);
+  EXPECT_EQ(std::ranges::count(found.open, "depth_arithmetic"), 0);
+}
+
+// Pixels of a picture whose rows count from the top, sampled at whole numbers: at their upper left corners.
+TEST(LearnCourses, ASampleMayLieAtThePixelsUpperBorder) {
+  for (const glm::dvec2 sample : {glm::dvec2(1, 0.5), glm::dvec2(0.5, 1)}) {
+    OfAlteredScenes renderer;
+    renderer.before = [=](Scene& scene) { scene.frame.pass.shift += 0.5 - sample; };
+    const C found = learn(renderer).conventions;
+    EXPECT_EQ(found.sample, sample) << conventions_text(found);
+    EXPECT_FALSE(is_said(found, "shifted"));
+  }
+  OfAlteredScenes farther;  // by a whole pixel more
+  farther.before = [](Scene& scene) { scene.frame.pass.shift.y -= 0.5; };
+  farther.after = [](const Scene& scene, Capture& c) {
+    if (scene.name != "probe/shift") return;
+    for (int y = 1; y < c.planes.color.height(); ++y) {
+      for (int x = 0; x < c.planes.color.width(); ++x) c.planes.color(x, y - 1) = c.planes.color(x, y);
+    }
+  };
+  EXPECT_TRUE(is_said(learn(farther).conventions, "shifted by 0, -2 pixels"));
+}
+
+TEST(LearnCourses, AStrayPixelMovesNoPicture) {
+  OfAlteredScenes renderer;
+  renderer.after = [](const Scene& scene, Capture& c) {
+    if (scene.name == "probe/shift") c.planes.color(0, 1) = glm::vec4(1);
+  };
+  EXPECT_FALSE(is_said(learn(renderer).conventions, "shifted"));
+}
+
+TEST(LearnCourses, CodesOf12BitsAndOf256AreNamed) {
+  const auto said = [](double (*code_of)(double), const std::string& text) {
+    OfAlteredScenes renderer;
+    renderer.before = [](Scene& scene) { scene.frame.color = ColorFormat::rgba32f; };
+    renderer.after = [=](const Scene&, Capture& capture) {
+      for (glm::vec4& color : capture.planes.color.values()) {
+        for (int k = 0; k < 4; ++k) color[k] = static_cast<float>(code_of(static_cast<double>(color[k])) / 255);
+      }
+    };
+    return is_said(learn(renderer).conventions, text);
+  };
+  const auto of_12_bits = [](double c) { return std::floor(std::floor(4095 * c) / 16); };
+  const auto of_256 = [](double c) { return std::min(255.0, std::floor(256 * c)); };
+  const auto right = [](double c) { return std::round(255 * c); };
+  EXPECT_TRUE(said(of_12_bits, "4095 c in 12 bits"));
+  EXPECT_TRUE(said(of_256, "256 c, truncated"));
+  EXPECT_FALSE(said(right, "color_rounding"));
+}
+
+// Fails on the probes of these names.
+struct Failing : OfAlteredScenes {
+  explicit Failing(std::vector<std::string> names) {
+    before = [names](Scene& scene) {
+      if (std::ranges::count(names, scene.name) > 0) throw RendererFailed("signal 11");
+    };
+  }
+};
+
+TEST(LearnCourses, AProbeThatFailsIsAFindingAndTheOthersGoOn) {
+  Failing one({"probe/colours"});
+  const C found = learn(one).conventions;
+  EXPECT_TRUE(is_said(found, "probe/colours: signal 11"));
+  EXPECT_EQ(std::ranges::count(found.open, "color_rounding"), 1);
+  EXPECT_EQ(found.tie_rule, C::TieRule::left_bottom);
+  Failing first({"probe/rows"}), three({"probe/colours", "probe/interpolation", "probe/alpha_test"});
+  EXPECT_THROW(learn(first), RendererFailed);
+  EXPECT_THROW(learn(three), RendererFailed);
+}
+
+}  // namespace
+}  // namespace plumbline::learn
