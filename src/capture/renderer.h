@@ -1,4 +1,4 @@
-// Anything that turns a scene into a capture: our pipeline, each reference, a program in another process.
+// Interface of a renderer (scene in, capture out): our pipeline, each reference, a program in another process.
 #pragma once
 
 #include <array>

@@ -238,7 +238,8 @@ struct SlopedTriangle {
   double depth(glm::dvec2 p) const { return glm::dot(shares(p), {p_win[0].z, p_win[1].z, p_win[2].z}); }
 };
 
-// One of 59 pixels beside the origin; many of 5 pixels far from it, nearly level, so that planes lose little there.
+// One large triangle (59 pixels) at the origin; 16 small ones (5 pixels) near (500, 500), nearly level, so that planes
+// lose little there.
 std::vector<SlopedTriangle> large_and_near() {
   return {{{glm::dvec3(2, 1, 9973 / 65536.0), glm::dvec3(61, 5, 39019 / 65536.0), glm::dvec3(7, 58, 60013 / 65536.0)}}};
 }

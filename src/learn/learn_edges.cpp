@@ -1,4 +1,4 @@
-// Where a pixel is sampled, the grid of window positions, and who owns a sample on an edge.
+// Sample position, grid of window positions, and tie rule.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -126,8 +126,8 @@ std::optional<Grid> grid_along(Prober& prober, int along) {
   return grid_of(edges(prober, along, rise, offsets), 9, kMostBits, grid->sample < 0.25 ? 1 : 0);
 }
 
-// The sample's place from edges with their triangles above. If triangles reach beyond their edges, it comes out too
-// high here, and too low from edges with their triangles below.
+// Sample position from edges with their triangles above. Triangles that reach beyond their edges bias this estimate
+// upwards, and the one from edges with their triangles below downwards.
 double place_from_above(Prober& prober, int along, const Grid& grid) {
   std::vector<double> offsets;
   for (int k = 0; k < 64; ++k) offsets.push_back(k / 1024.0);

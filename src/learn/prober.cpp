@@ -1,6 +1,8 @@
 #include "learn/prober.h"
 
 #include <algorithm>
+#include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -47,13 +49,15 @@ void Prober::fits_none(const ConventionWords& words, const std::string& evidence
 }
 
 ConventionWords words_of(std::string_view name) {
-  ConventionWords out = name == kOffsetWords.name ? kOffsetWords : kSampleWords;
+  std::optional<ConventionWords> out;
   const auto take = [&](const ConventionWords& words, auto) {
     if (words.name == name) out = words;
   };
+  take(kSampleWords, nullptr), take(kOffsetWords, nullptr);
   each_choice(take);
   each_number_of_bits(take);
-  return out;
+  if (!out) throw std::logic_error(fmt::format("no convention {}", name));
+  return *out;
 }
 
 }  // namespace plumbline::learn

@@ -1,4 +1,4 @@
-// A renderer that is asked for its conventions, and what has been found so far.
+// Probe runner: draws probes with a renderer, and collects the conventions found.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +48,7 @@ class Prober {
   /// Adds a row "none fits", and a finding: no value of the convention explains what the renderer shows.
   void fits_none(const ConventionWords& words, const std::string& evidence);
   bool is_open(std::string_view name) const;
-  /// A finding that is of no one convention.
+  /// Adds a finding that belongs to no single convention.
   void unexplained(std::string finding) { learned.conventions.unexplained.push_back(std::move(finding)); }
 
   Learned learned;
@@ -65,7 +65,7 @@ inline double farther(double most, double off) {
   return std::isnan(off) ? std::numeric_limits<double>::infinity() : std::max(most, std::abs(off));
 }
 
-/// Words of the convention of that name (capture/conventions.h).
+/// Words of the convention of that name (capture/conventions.h); throws std::logic_error for another name.
 ConventionWords words_of(std::string_view name);
 
 // The probes. Each finds its conventions, or leaves them open. They throw what Prober::draw() throws.

@@ -17,7 +17,7 @@ using math::kFlushedUnderflow;
 using math::kGradualUnderflow;
 using math::Roundings;
 
-/// |M| |p|: what the rounding errors of M p are proportional to.
+/// |M| |p|, the magnitude of the rounding errors of M p.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
 
 /// Magnitude of a unit normal N n / |N n|: the length of |N| |n| over the length of N n.

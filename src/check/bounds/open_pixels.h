@@ -18,7 +18,7 @@ namespace plumbline::check {
 /// Whether any draw tests alpha.
 bool tests_alpha(const Scene& scene);
 
-/// Whether a frame in which nothing is drawn is legal, and another one is, too: every pixel may be background, and some
+/// Whether both the cleared frame and some other frame are legal: every pixel may be background, and some
 /// pixel may be of a primitive. False where legal colours are not those of the winners (Legal::color_lo).
 bool may_be_empty(const Legal& legal);
 

@@ -33,7 +33,7 @@ bool fits_winners(const Planes& candidate, const Legal& legal, std::string& why)
 }
 std::int32_t winner_at(const Planes& planes, int x, int y) { return planes.id.empty() ? kBackground : planes.id(x, y); }
 
-// Whether these answers allow nothing but the cleared frame.
+// Whether the background is the only legal answer.
 bool is_cleared(std::span<const LegalAnswer> answers) {
   return !answers.empty() &&
          std::ranges::all_of(answers, [](const LegalAnswer& a) { return a.primitive == kBackground; });

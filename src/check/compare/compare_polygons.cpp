@@ -41,8 +41,8 @@ Corners corners_of(const DrawIndex& draws, std::uint32_t primitive, const Record
   return out;
 }
 
-// The planes whose cuts rounding decides about: a corner lies on one, or an edge goes through the meeting of several,
-// as the polygon has it.
+// Planes with an ambiguous cut: a corner lies on the plane, or an edge of the polygon passes through an intersection of
+// planes.
 void open_planes(const Corners& c, Vertices polygon, double tolerance, std::array<bool, 6>& open) {
   for (std::size_t p = 0; p < c.planes; ++p) {
     for (const Vec4<double>& corner : c.p_clip) open[p] |= std::abs(distances(corner)[p]) <= tolerance;
@@ -176,7 +176,7 @@ void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const
       meter.value(distance_from_edge(v, corners, 0) / u, factor, at("off its edge"), 0, 0);
       continue;
     }
-    // Told from none: a cut within rounding of a vertex of the mesh.
+    // Indistinguishable from an uncut vertex: a cut within rounding of it.
     const bool as_copy = copies > 0 && v.cut != w.cut;
     meter.value(v.cut == w.cut || as_copy ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
     if (!w.cut || as_copy) {

@@ -19,7 +19,7 @@ struct Finding {
   Stage stage = Stage::matrices;
   JudgeId judge{""};                 ///< who judged it
   Measurement measurement;           ///< and by how much it is off
-  std::vector<std::string> numbers;  ///< the worst record: what came in, what came out, what was expected and from whom
+  std::vector<std::string> numbers;  ///< the worst record: input, output, expected output and its source
   std::vector<std::string> causes;   ///< likely causes in words, with the evidence (causes.h)
   std::size_t explains = 0;          ///< pixels of the final picture (effect.h); not where fragments are too many
   std::string picture;  ///< coverage: the worst triangle, `#` both, `?` missing, `!` extra; rows from the top; or empty

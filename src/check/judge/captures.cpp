@@ -71,7 +71,7 @@ Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const
   if (request.pixels.empty()) return {};
   try {
     return oracle.capture(scene, request).legal;
-  } catch (const std::exception&) {  // it has nothing to say
+  } catch (const std::exception&) {  // the oracle failed: no legal answers
     return {};
   }
 }

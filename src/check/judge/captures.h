@@ -13,7 +13,7 @@
 
 namespace plumbline::check {
 
-/// Whether the planes count more fragments than that.
+/// Whether planes.count sums to more than `most_fragments`.
 bool more_than(std::uint64_t most_fragments, const Capture& capture);
 
 /// The candidate's records and planes; without records of fragments where these are too many or do not fit the memory
@@ -26,8 +26,8 @@ struct Answers {
   std::vector<std::optional<Refusal>> refusals;
 };
 
-/// Captures of the references: geometry records; coverage records where lines are drawn; planes, except of a referee and of an
-/// oracle that is not asked for legal answers; legal answers, where `legal` and they fit the budget.
+/// Captures of the references: geometry records; coverage records where lines are drawn; planes. Planes are omitted for
+/// referees, and for oracles without `legal`. Legal answers are captured if `legal` is set and the budget allows.
 Answers ask_references(const Scene& scene, std::span<const Reference> references, bool legal,
                        const Conventions& conventions);
 

@@ -17,7 +17,7 @@ void side_by_side(const Case& c, const Capture& theirs, Stage stage, const Judge
 /// Coverage, depth, colour or visibility against an oracle's legal answers.
 void ask_oracle(const Case& c, const Legal& legal, Stage stage, const JudgeId& name);
 
-/// The stage as `referee` makes it of the candidate's own records, against the candidate's.
+/// Row per_stage: the referee runs the stage on the candidate's records, and the results are compared.
 void run_exact_stage(const Case& c, Renderer& referee, Stage stage, const JudgeId& name);
 
 /// The stage as it was made of the candidate's own records, against the candidate's. Not of matrices, nor of resolve.

@@ -24,7 +24,7 @@ constexpr double kNear = 1e-3, kRoundings = 1e-6;  // relative differences
 
 double apart(double a, double b) { return std::abs(a - b) / std::max(1.0, std::abs(b)); }
 
-// How many numbers of a triangle are those of another, and how far apart these are.
+// Fit of two triangles: the count of matching numbers, and the sum of their relative differences.
 struct Fit {
   int alike = 0;
   double apart = 0;
