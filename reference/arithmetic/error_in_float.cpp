@@ -30,14 +30,11 @@ double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, d
   return std::max(out, depth_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size));
 }
 
-double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, double altitude) {
+double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
-  if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
+  if (arithmetic == Conventions::DepthArithmetic::in_double || !t.ahead) return 0;
   const glm::dvec2 size(scene.width, scene.height);
-  double out = 0;
-  if (t.cut) out = 3 * depth_error_of_pieces(arithmetic, altitude, size);
-  if (!t.ahead) return out;
-  return std::max(out, shares_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size));
+  return shares_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size);
 }
 
 }  // namespace plumbline::math

@@ -11,7 +11,8 @@ namespace plumbline::math {
 /// altitudes are at least `altitude` [pixels]. 0 for a renderer in double; infinite where a piece may have no area.
 double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double altitude);
 
-/// shares_error() at the ray d; as error_in_float() otherwise.
-double shares_error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double altitude);
+/// shares_error() at the ray d, of the whole triangle: a bound of its pieces would leave open every colour of a cut
+/// triangle, and what is wrong with cuts. 0 for a triangle that reaches behind the eye.
+double shares_error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d);
 
 }  // namespace plumbline::math

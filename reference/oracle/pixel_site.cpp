@@ -171,7 +171,7 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const bool turned = !certain && (t.cut || t.thin);
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
   const glm::dvec2 from_place = weight * moved + (snapped ? weight * scene.step : turned ? scene.step : 0);
-  const double shares = near_end * shares_error_in_float(scene, t, centre, piece_altitude(certain));
+  const double shares = near_end * shares_error_in_float(scene, t, centre);
   return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + attribute_error(shares, most) +
                      value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +
                                      32 * kFloatRounding * near_end * std::max(most, 1.0))};

@@ -177,7 +177,12 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
           return;
         }
         const Vec4<double> bound = bounds_of_mean(candidate.triangles[c.triangle], c.x, c.y);
-        if (!std::isfinite(bound.x + bound.y + bound.z + bound.w)) {  // extrapolated to the horizon: any colour
+        const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
+        const Vec4<double> allowance =
+            from_origin > 0 ? from_origin * u * bounds_from_origin(triangle, c.x, c.y).color : Vec4<double>(0);
+        const double declared = from_origin > 0 ? declared_error(conventions, triangle, c) : 0;
+        // Extrapolated to the horizon, or in an arithmetic that loses all shares: any colour.
+        if (!std::isfinite(bound.x + bound.y + bound.z + bound.w + declared)) {
           meter.ambiguous();
           for (int k = 0; k < 4; ++k) {
             const double v = candidate.attributes[i].color[k];
@@ -185,13 +190,8 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
           }
           return;
         }
-        const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
-        const Vec4<double> allowance = from_origin > 0
-                                           ? from_origin * u * bounds_from_origin(triangle, c.x, c.y).color +
-                                                 declared_error(conventions, triangle, c)
-                                           : Vec4<double>(0);
         add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound + kGradualUnderflow, factor,
-            {c.x, c.y, c.triangle, "color"}, allowance);
+            {c.x, c.y, c.triangle, "color"}, allowance + declared);
       });
 }
 
