@@ -7,7 +7,8 @@
 
 namespace plumbline::learn {
 
-/// Draws the probes. Throws RendererFailed where the first or three others fail, and Unsupported where the renderer cannot draw a rectangle.
+/// Draws the probes. Throws RendererFailed where the first or three others fail, and Unsupported where the renderer
+/// cannot draw a rectangle.
 Learned learn(Renderer& renderer);
 
 /// A table for people: each convention, its evidence, and what no convention explains.

@@ -81,7 +81,7 @@ Fit best_fit(const Plane<glm::vec4>& color) {
   return best;
 }
 
-// What explains the colours where codes are made of more bits, or of 256 c, and then truncated; empty: that does not.
+// Explanation of colours by codes that are made of more bits, or of 256 c, and then truncated; empty: they are not.
 std::string said_of_powers_of_two(const Plane<glm::vec4>& color) {
   const std::pair<const char*, double (*)(double)> kRules[] = {
       {"256 c, truncated, and at most 255", [](double c) { return std::min(255.0, std::floor(256 * c)); }},

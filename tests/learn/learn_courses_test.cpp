@@ -1,4 +1,4 @@
-// What plumb learn finds in renderers of courses: GAMES101's, CSCI-580's GzRender.
+// Conventions that plumb learn finds in renderers of courses: GAMES101's, CSCI-580's GzRender.
 #include <algorithm>
 #include <cmath>
 #include <memory>

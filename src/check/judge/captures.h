@@ -35,7 +35,7 @@ Answers ask_references(const Scene& scene, std::span<const Reference> references
 Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
                         const Conventions& conventions);
 
-/// The records of the stages that `shown` shows, each run alone on those before it: of a candidate whose capture failed.
+/// Records of the stages that `shown` shows, each run alone on those before it, of a candidate whose capture failed.
 Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown);
 
 }  // namespace plumbline::check

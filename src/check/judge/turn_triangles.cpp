@@ -45,7 +45,7 @@ void add_corner(Fit& fit, const WindowVertex<double>& a, const WindowVertex<doub
   fit.add(color);
 }
 
-// Turns under which as many numbers as possible are those of one of `theirs`, and of these the nearest, but for roundings.
+// Turns with the most numbers that match one of `theirs`; among equals, the nearest, but for roundings.
 Turns best_turns(const WindowTriangle<double>& mine, Run theirs) {
   std::array<Fit, kTurns> fits;
   for (const WindowTriangle<double>& other : theirs) {
