@@ -94,7 +94,7 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
 /// `from_origin`: as in compare_depth(); with it, the error of the arithmetic that the conventions declare.
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
                                double from_origin = 0, const Conventions& conventions = {});
-/// Of plain draws bit for bit (as floats), but for `copies` u of the value; of others `factor` u of each step's
+/// Colours: of plain draws bit for bit (as floats), but for `copies` u of the value; of others `factor` u of each step's
 /// magnitude (shade_bounds.h).
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, double copies = 0);

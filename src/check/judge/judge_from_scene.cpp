@@ -41,7 +41,9 @@ void judge_by_referee(const Case& c, const Records<double>& theirs, Stage stage,
         &row);
   } else if (stage == Stage::vertex) {
     const Tolerance& row = tolerance(Profile::exact, stage, "scene");
-    c.add(name, stage, compare_vertices(c.scene, vertex_records(c), theirs, row.factor, row.factor, inversion), &row);
+    Records<double> made_of;  // a stranger's
+    c.add(name, stage, compare_vertices(c.scene, vertex_records(c, made_of), theirs, row.factor, row.factor, inversion),
+          &row);
   }
 }
 

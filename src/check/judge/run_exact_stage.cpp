@@ -163,10 +163,11 @@ void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeI
     c.add(name, stage, compare(row.factor), &row);
   };
   const auto varyings = [&](Measurement color) { return with_varyings(c, stage, std::move(color), theirs); };
+  Records<double> made_of;  // a stranger's
   switch (stage) {
     case Stage::matrices: break;
     case Stage::vertex:
-      return add([&](double f) { return compare_vertices(c.scene, vertex_records(c), theirs, f, f); });
+      return add([&](double f) { return compare_vertices(c.scene, vertex_records(c, made_of), theirs, f, f); });
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
     case Stage::clip: return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, true)); });
     case Stage::window:

@@ -74,14 +74,16 @@ void compare_shown(const Case& c, const Capture& theirs, Stage stage, const Judg
   const auto add = [&](Measurement m, std::string_view part = "", std::string note = "") {
     c.add(name, stage, std::move(m), &tolerance(c.profile, stage, part), std::move(note));
   };
+  Records<double> made_of;  // a stranger's
   switch (stage) {
     case Stage::matrices: return add(compare_rounded_matrices(mine, theirs.records, factor_of(stage)));
     case Stage::vertex:
-      return add(
-          compare_vertices(c.scene, vertex_records(c), theirs.records, 0, factor_of(stage), Inversion::in_float));
+      return add(compare_vertices(c.scene, vertex_records(c, made_of), theirs.records, 0, factor_of(stage),
+                                  Inversion::in_float));
     case Stage::light: return add(compare_lit(c.scene, mine, theirs.records, factor_of(stage), {}, kOfMesa));
     case Stage::clip:
-      return add(compare_polygon_positions(c.foreign ? cut_at_sides(mine) : mine, theirs.records, factor_of(stage)));
+      if (c.foreign) made_of = cut_at_sides(mine);
+      return add(compare_polygon_positions(c.foreign ? made_of : mine, theirs.records, factor_of(stage)));
     case Stage::window:
       return add(
           compare_window_equal(mine, theirs.records, factor_of(stage), turned_outlines(c.scene, mine, theirs.records)));

@@ -19,8 +19,9 @@ Records<double> with_unit_normals(const Scene& scene, Records<double> records, O
   return records;
 }
 
-Records<double> vertex_records(const Case& c) {
-  return c.foreign ? with_unit_normals(c.scene, c.candidate.records, OfDraws::all) : c.candidate.records;
+const Records<double>& vertex_records(const Case& c, Records<double>& made) {
+  if (!c.foreign) return c.candidate.records;
+  return made = with_unit_normals(c.scene, c.candidate.records, OfDraws::all);
 }
 
 }  // namespace plumbline::check

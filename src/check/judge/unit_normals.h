@@ -11,7 +11,7 @@ enum class OfDraws { all, lit_at_vertices };
 /// normalized. Zero, infinite and NaN normals stay.
 Records<double> with_unit_normals(const Scene& scene, Records<double> records, OfDraws of);
 
-/// The candidate's records for comparisons of stage vertex: a stranger's normals at unit length.
-Records<double> vertex_records(const Case& c);
+/// The candidate's records for comparisons of stage vertex: its own, or of a stranger, in `made`, with unit normals.
+const Records<double>& vertex_records(const Case& c, Records<double>& made);
 
 }  // namespace plumbline::check

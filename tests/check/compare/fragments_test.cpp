@@ -206,7 +206,7 @@ TEST_F(Fragments, DepthsInFloatAreHeldToTheirBound) {
   }
 }
 
-// Of a stranger; the arithmetic that it declares adds its error.
+// Attributes of a stranger: the arithmetic that it declares adds its error.
 TEST_F(Fragments, AttributesInFloatAreHeldToTheirBound) {
   using enum Conventions::DepthArithmetic;
   const auto slack = [&](Conventions::DepthArithmetic arithmetic, double from_origin) {
@@ -311,7 +311,7 @@ TEST_F(Fragments, ShadedInThickFogUnderflowGradually) {
   EXPECT_TRUE(fails(moved(-0x1p-131))) << "flushed to zero";
 }
 
-// Of a draw without fog, texture or light per fragment the colour is that of the attributes.
+// Colours of a draw without fog, texture or light per fragment are those of the attributes.
 TEST_F(Fragments, ColoursThatNoStepChangesMayBeOffByCopies) {
   const auto moved = [&](double by, double copies) {
     Records<double> a = records;
