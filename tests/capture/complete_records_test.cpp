@@ -1,6 +1,7 @@
 // Records in any order, and without what follows from others.
 #include "capture/complete_records.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,34 +13,20 @@
 
 #include <fmt/format.h>
 
-#include "capture/files/capture_columns.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
+#include "tests/capture/differing_arrays.h"
 
 namespace plumbline {
 namespace {
+
+using test::differing_records;
+using testing::IsEmpty;
 
 const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
 
 Capture whole_capture(const Scene& scene) {
   return pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
-}
-
-// The arrays that differ.
-struct Differing {
-  std::vector<std::string> names;
-  template <class Record>
-  void group(Handed group, const auto& columns, const std::vector<Record>& a, const std::vector<Record>& b) {
-    columns.each([&](const auto& column) {
-      if (packed(a, column) != packed(b, column)) names.push_back(fmt::format("{}.{}", group.name, column.name));
-    });
-  }
-  void plane(Handed, const auto&, const auto&) const {}
-};
-std::vector<std::string> differing(const Capture& a, const Capture& b) {
-  Differing out;
-  visit_capture(out, a, b);
-  return out.names;
 }
 
 template <class T>
@@ -82,7 +69,7 @@ TEST(CompleteRecords, leave_a_capture_in_order_as_it_is) {
     if (capture.records.covered.size() > 300'000) continue;
     const Capture was = capture;
     complete_records(scene, capture);
-    EXPECT_EQ(differing(was, capture), std::vector<std::string>()) << file;
+    EXPECT_THAT(differing_records(was, capture), IsEmpty()) << file;
     ++scenes;
   }
   EXPECT_GT(scenes, 200u);
@@ -96,9 +83,9 @@ TEST(CompleteRecords, put_shuffled_records_in_order) {
     const Capture was = whole_capture(scene);
     Capture capture = was;
     shuffle_all(capture.records, random);
-    EXPECT_GT(differing(was, capture).size(), 4u) << name;
+    EXPECT_GT(differing_records(was, capture).size(), 4u) << name;
     complete_records(scene, capture);
-    EXPECT_EQ(differing(was, capture), std::vector<std::string>()) << name;
+    EXPECT_THAT(differing_records(was, capture), IsEmpty()) << name;
   }
 }
 
@@ -123,7 +110,7 @@ TEST(CompleteRecords, fill_what_follows_from_others) {
     for (ClipVertex<double>& v : capture.records.polygons.vertices) v.cut = !v.cut;
     capture.derived = {"clip.cut", "window.front", "window.corners", "window.width", "window.snapped"};
     complete_records(scene, capture);
-    EXPECT_EQ(differing(was, capture), std::vector<std::string>()) << file;
+    EXPECT_THAT(differing_records(was, capture), IsEmpty()) << file;
     ++scenes;
   }
   EXPECT_GT(scenes, 300u);

@@ -1,10 +1,7 @@
 // Scenes and comparisons for the tests of the pipeline as a renderer.
 #pragma once
 
-#include <algorithm>
 #include <utility>
-
-#include <gtest/gtest.h>
 
 #include "capture/renderer.h"
 
@@ -75,63 +72,6 @@ inline Scene boxes(ColorFormat color = ColorFormat::rgba8, DepthFormat depth = D
   add(2, {Translate{{0.5, 0.8, -0.5}}, Scale{{1.5, 0.2, 1}}}, false, Shading::gouraud, Cull::back, DepthFunc::greater);
   add(3, {Rotate{30, {1, 2, 0}}}, false, Shading::gouraud, Cull::none, DepthFunc::equal);  // half of the first
   return scene;
-}
-
-template <class Values>
-bool same_values(const Values& a, const Values& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return x == y; });
-}
-
-inline void expect_same(const Planes& is, const Planes& expected) {
-  EXPECT_EQ(is.count.values(), expected.count.values());
-  EXPECT_EQ(is.id_sum.values(), expected.id_sum.values());
-  EXPECT_EQ(is.id.values(), expected.id.values());
-  EXPECT_TRUE(same_values(is.shaded.values(), expected.shaded.values()));
-  EXPECT_TRUE(same_values(is.color.values(), expected.color.values()));
-  EXPECT_EQ(is.depth.values(), expected.depth.values());
-}
-
-template <class T, class Same>
-void expect_same_records(const char* name, const std::vector<T>& is, const std::vector<T>& expected, Same same) {
-  ASSERT_EQ(is.size(), expected.size()) << name;
-  for (std::size_t i = 0; i < is.size(); ++i) ASSERT_TRUE(same(is[i], expected[i])) << name << " " << i;
-}
-
-inline void expect_same(const Records<double>& is, const Records<double>& expected) {
-  expect_same_records("matrices", is.matrices, expected.matrices, [](const auto& a, const auto& b) {
-    return a.model_view == b.model_view && a.projection == b.projection && a.normal == b.normal &&
-           a.win_scale == b.win_scale && a.win_translate == b.win_translate;
-  });
-  expect_same_records("lights", is.lights, expected.lights,
-                      [](const auto& a, const auto& b) { return a.p_eye == b.p_eye && a.spot_eye == b.spot_eye; });
-  expect_same_records("vertex", is.vertices, expected.vertices, [](const auto& a, const auto& b) {
-    return a.p_eye == b.p_eye && a.p_clip == b.p_clip && a.n_eye == b.n_eye;
-  });
-  expect_same_records("lit", is.lit, expected.lit, [](const auto& a, const auto& b) { return a.color == b.color; });
-  expect_same_records("polygon", is.polygons.polygons, expected.polygons.polygons, [](const auto& a, const auto& b) {
-    return a.primitive == b.primitive && a.first == b.first && a.count == b.count;
-  });
-  expect_same_records(
-      "polygon vertex", is.polygons.vertices, expected.polygons.vertices,
-      [](const auto& a, const auto& b) { return a.p_clip == b.p_clip && a.color == b.color && a.cut == b.cut; });
-  expect_same_records("triangle", is.triangles, expected.triangles, [](const auto& a, const auto& b) {
-    bool same = a.primitive == b.primitive && a.front == b.front;
-    for (std::size_t i = 0; i < 3; ++i) {
-      same &= a.v[i].p_win == b.v[i].p_win && a.v[i].inv_w == b.v[i].inv_w && a.v[i].snapped == b.v[i].snapped &&
-              a.v[i].color == b.v[i].color;
-    }
-    return same;
-  });
-  expect_same_records("covered", is.covered, expected.covered, [](const auto& a, const auto& b) {
-    return a.triangle == b.triangle && a.x == b.x && a.y == b.y;
-  });
-  EXPECT_EQ(is.depth, expected.depth);
-  expect_same_records("attributes", is.attributes, expected.attributes,
-                      [](const auto& a, const auto& b) { return a.color == b.color; });
-  expect_same_records("shaded", is.shaded, expected.shaded,
-                      [](const auto& a, const auto& b) { return a.color == b.color; });
-  expect_same_records("drawn", is.drawn, expected.drawn,
-                      [](const auto& a, const auto& b) { return a.drawn == b.drawn; });
 }
 
 }  // namespace plumbline::testing_words

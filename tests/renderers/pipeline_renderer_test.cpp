@@ -3,18 +3,21 @@
 
 #include <algorithm>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/capture/differing_arrays.h"
 #include "tests/pipeline/boxes.h"
 
 namespace plumbline::pipeline {
 namespace {
 
+using test::differing_planes;
+using test::differing_records;
+using testing::IsEmpty;
 using testing_words::boxes;
 using testing_words::everything;
-using testing_words::expect_same;
 using testing_words::kFormats;
-using testing_words::same_values;
 
 TEST(PipelineRenderer, TheTestSceneHasWhatItIsFor) {
   const Scene scene = boxes();
@@ -46,12 +49,12 @@ TEST(PipelineRenderer, PlanesDoNotDependOnTheRecordsAskedFor) {
     EXPECT_EQ(bare.width, 90);
     EXPECT_EQ(bare.height, 70);
     EXPECT_TRUE(bare.legal.empty());
-    expect_same(bare.records, {});
-    expect_same(bare.planes, pipeline->capture(scene, everything()).planes);
+    EXPECT_THAT(differing_records(bare, {}), IsEmpty());
+    EXPECT_THAT(differing_planes(bare, pipeline->capture(scene, everything())), IsEmpty());
     Request few = everything();
     few.primitives = {3};
     few.pixels = {{45, 35}};
-    expect_same(bare.planes, pipeline->capture(scene, few).planes);
+    EXPECT_THAT(differing_planes(bare, pipeline->capture(scene, few)), IsEmpty());
   }
 }
 
@@ -259,7 +262,7 @@ TEST(PipelineRenderer, AnEmptySceneIsItsBackground) {
   const Capture c = make_pipeline()->capture(scene, everything());
   for (const auto& color : c.planes.color.values()) ASSERT_EQ(color, scene.frame.clear_color);
   for (double z : c.planes.depth.values()) ASSERT_EQ(z, static_cast<double>(0.9999f));
-  expect_same(c.records, {});
+  EXPECT_THAT(differing_records(c, {}), IsEmpty());
 }
 
 }  // namespace

@@ -1,88 +1,73 @@
 // Each stage of the pipeline run alone through the interface of all renderers.
+#include <functional>
 #include <stdexcept>
+#include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture/files/capture_columns.h"
 #include "renderers/pipeline_renderer.h"
+#include "scene/file/scene_file.h"
+#include "tests/capture/differing_arrays.h"
 #include "tests/pipeline/boxes.h"
 
 namespace plumbline::pipeline {
 namespace {
 
+using test::differing_planes;
+using test::differing_records;
+using testing::IsEmpty;
 using testing_words::boxes;
 using testing_words::everything;
-using testing_words::expect_same;
 using testing_words::kFormats;
 
-/// What a capture of everything holds of one stage.
-Capture of_stage(const Capture& whole, Stage stage) {
-  Capture c;
-  const Records<double>& r = whole.records;
-  switch (stage) {
-    case Stage::matrices:
-      c.records.matrices = r.matrices;
-      c.records.lights = r.lights;
-      break;
-    case Stage::vertex: c.records.vertices = r.vertices; break;
-    case Stage::light: c.records.lit = r.lit; break;
-    case Stage::clip: c.records.polygons = r.polygons; break;
-    case Stage::window: c.records.triangles = r.triangles; break;
-    case Stage::coverage:
-      c.records.covered = r.covered;
-      c.planes.count = whole.planes.count;
-      c.planes.id_sum = whole.planes.id_sum;
-      break;
-    case Stage::depth: c.records.depth = r.depth; break;
-    case Stage::attributes: c.records.attributes = r.attributes; break;
-    case Stage::texture: c.records.texels = r.texels; break;
-    case Stage::shade: c.records.shaded = r.shaded; break;
-    case Stage::visibility:
-      c.records.drawn = r.drawn;
-      c.planes.id = whole.planes.id;
-      break;
-    case Stage::merge:
-      c.planes.color = whole.planes.color;
-      c.planes.depth = whole.planes.depth;
-      break;
-    case Stage::resolve: break;
+const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
+
+/// What a capture holds of some stages, but for planes.texel and planes.shaded, which no stage run alone fills.
+struct Chosen {
+  std::function<bool(Stage)> has;
+  void group(Handed group, const auto&, const auto& from, auto& to) const {
+    if (has(group.stage)) to = from;
   }
-  return c;
+  void plane(Handed plane, const auto& from, auto& to) const {
+    if (has(plane.stage) && plane.stage != Stage::texture && plane.stage != Stage::shade) to = from;
+  }
+};
+Capture of_stage(const Capture& whole, Stage stage) {
+  Capture out;
+  visit_capture(Chosen{[=](Stage s) { return s == stage; }}, whole, out);
+  return out;
+}
+Capture records_before(const Capture& whole, Stage stage) {
+  Capture out;
+  visit_capture(Chosen{[=](Stage s) { return s < stage; }}, whole, out);
+  out.planes = {};
+  return out;
+}
+
+void expect_each_stage_alone(const Scene& scene) {
+  const auto pipeline = make_pipeline();
+  const Capture whole = pipeline->capture(scene, {.records = StageSet::all()});
+  for (const Stage stage : stages_of(scene)) {
+    SCOPED_TRACE(name_of(stage));
+    const Capture alone = pipeline->run_stage(scene, stage, records_before(whole, stage));
+    const Capture expected = of_stage(whole, stage);
+    EXPECT_EQ(alone.renderer, "ours");
+    EXPECT_EQ(alone.width, scene.frame.width);
+    EXPECT_EQ(alone.height, scene.frame.height);
+    EXPECT_THAT(differing_records(alone, expected), IsEmpty());
+    EXPECT_THAT(differing_planes(alone, expected), IsEmpty());
+  }
 }
 
 TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
-  for (const auto& [color, depth] : kFormats) {
-    const Scene scene = boxes(color, depth);
-    const auto pipeline = make_pipeline();
-    const Capture whole = pipeline->capture(scene, everything());
-    for (std::size_t k = 0; k < kStageNames.size(); ++k) {
-      const auto stage = static_cast<Stage>(k);
-      if (stage == Stage::texture || stage == Stage::resolve) continue;  // antialias_test.cpp
-      SCOPED_TRACE(kStageNames[k]);
-      // Of the records, only those of the stages before it.
-      Capture before;
-      for (std::size_t i = 0; i < k && i <= static_cast<std::size_t>(Stage::visibility); ++i) {
-        const Capture one = of_stage(whole, static_cast<Stage>(i));
-        const Records<double>& r = one.records;
-        if (!r.matrices.empty()) before.records.matrices = r.matrices;
-        if (!r.lights.empty()) before.records.lights = r.lights;
-        if (!r.vertices.empty()) before.records.vertices = r.vertices;
-        if (!r.lit.empty()) before.records.lit = r.lit;
-        if (!r.polygons.polygons.empty()) before.records.polygons = r.polygons;
-        if (!r.triangles.empty()) before.records.triangles = r.triangles;
-        if (!r.covered.empty()) before.records.covered = r.covered;
-        if (!r.depth.empty()) before.records.depth = r.depth;
-        if (!r.attributes.empty()) before.records.attributes = r.attributes;
-        if (!r.shaded.empty()) before.records.shaded = r.shaded;
-        if (!r.drawn.empty()) before.records.drawn = r.drawn;
-      }
-      const Capture alone = pipeline->run_stage(scene, stage, before);
-      const Capture expected = of_stage(whole, stage);
-      EXPECT_EQ(alone.renderer, "ours");
-      EXPECT_EQ(alone.width, 90);
-      EXPECT_EQ(alone.height, 70);
-      expect_same(alone.records, expected.records);
-      expect_same(alone.planes, expected.planes);
-    }
+  for (const auto& [color, depth] : kFormats) expect_each_stage_alone(boxes(color, depth));
+  for (const char* file :
+       {"phong/all_at_once.json", "phong/separate_on_texels.json", "light/two_sided_cut.json",
+        "stencil/everything.json", "lines/wide_perspective.json", "points/sizes.json", "fog/linear.json"}) {
+    SCOPED_TRACE(file);
+    expect_each_stage_alone(load_scene(kScenes + file, {}));
   }
 }
 
@@ -104,7 +89,7 @@ TEST(PipelineRenderer, LightAndShadeTakeTheRecordedLights) {
     in.records.lights = pipeline->capture(other, everything()).records.lights;
     ASSERT_EQ(in.records.lights.size(), scene.lights.size());
     const Capture made = pipeline->run_stage(scene, stage, in);
-    expect_same(made.records, expected.records);
+    EXPECT_THAT(differing_records(made, expected), IsEmpty());
     const auto color = [&](const Capture& c) {
       return stage == Stage::light ? c.records.lit.at(0).color : c.records.shaded.at(0).color;
     };
@@ -120,8 +105,9 @@ TEST(PipelineRenderer, DepthsOfAnotherRendererAreRoundedToTheFormat) {
     Capture in;
     in.records = whole.records;
     for (double& z : in.records.depth) z += off / 65535;
-    expect_same(pipeline->run_stage(scene, Stage::visibility, in).planes, of_stage(whole, Stage::visibility).planes);
-    expect_same(pipeline->run_stage(scene, Stage::merge, in).planes, of_stage(whole, Stage::merge).planes);
+    for (const Stage stage : {Stage::visibility, Stage::merge}) {
+      EXPECT_THAT(differing_planes(pipeline->run_stage(scene, stage, in), of_stage(whole, stage)), IsEmpty());
+    }
   }
 }
 
@@ -129,12 +115,13 @@ TEST(PipelineRenderer, MergeTakesTheWinnersThatItIsGiven) {
   const Scene scene = boxes();
   const auto pipeline = make_pipeline();
   Capture whole = pipeline->capture(scene, everything());
-  expect_same(pipeline->run_stage(scene, Stage::merge, whole).planes, of_stage(whole, Stage::merge).planes);
+  const Capture merged = of_stage(whole, Stage::merge);
+  EXPECT_THAT(differing_planes(pipeline->run_stage(scene, Stage::merge, whole), merged), IsEmpty());
   Capture hidden = whole;
   hidden.records.drawn.assign(whole.records.covered.size(), {false});
   EXPECT_NEAR(pipeline->run_stage(scene, Stage::merge, hidden).planes.depth(45, 35), scene.frame.clear_depth, 0x1p-24);
   whole.records.drawn.clear();  // where they are not told, the winners are
-  expect_same(pipeline->run_stage(scene, Stage::merge, whole).planes, of_stage(whole, Stage::merge).planes);
+  EXPECT_THAT(differing_planes(pipeline->run_stage(scene, Stage::merge, whole), merged), IsEmpty());
 
   Capture none = whole;
   none.planes.id = Plane<std::int32_t>(90, 70, kBackground);
@@ -186,7 +173,7 @@ TEST(PipelineRenderer, HandsOutTheRecordsAskedForAndNoOthers) {
     SCOPED_TRACE(kStageNames[k]);
     Request one;
     one.records = {stage};
-    expect_same(pipeline->capture(scene, one).records, of_stage(whole, stage).records);
+    EXPECT_THAT(differing_records(pipeline->capture(scene, one), of_stage(whole, stage)), IsEmpty());
   }
 }
 

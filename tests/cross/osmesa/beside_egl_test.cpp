@@ -7,8 +7,8 @@
 #include "capture/renderers/process_renderer.h"
 #include "reference/osmesa/osmesa.h"
 #include "scene/file/scene_file.h"
+#include "tests/capture/differing_arrays.h"
 #include "tests/extent.h"
-#include "tests/painter/same_captures.h"
 
 namespace plumbline {
 namespace {

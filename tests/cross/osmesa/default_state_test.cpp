@@ -13,9 +13,9 @@
 
 #include "reference/osmesa/osmesa.h"
 #include "scene/file/scene_file.h"
+#include "tests/capture/differing_arrays.h"
 #include "tests/cross/osmesa_scenes.h"
 #include "tests/extent.h"
-#include "tests/painter/same_captures.h"
 
 namespace plumbline::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "reference/osmesa/osmesa.h"
+#include "tests/capture/differing_arrays.h"
 #include "tests/cross/osmesa_scenes.h"
-#include "tests/painter/same_captures.h"
 
 namespace plumbline::test {
 namespace {
