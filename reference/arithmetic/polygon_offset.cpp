@@ -10,24 +10,18 @@
 
 namespace plumbline::math {
 
-namespace {
-
-/// r of OpenGL 4.5, section 14.6.5: for float depths the distance from the last float at or below z to the next one;
-/// for codes `unit` steps (2 in Mesa; OpenGL leaves it open).
-double step_at(DepthFormat format, double unit, double z) {
+long double offset_unit(DepthFormat format, const Conventions& conventions, double largest_z) {
+  const long double unit = conventions.offset_unit.x, of_16_bits = conventions.offset_unit.y;
   switch (format) {
     case DepthFormat::z8: return unit / 0xff;
-    case DepthFormat::z16: return unit / 0xffff;
+    case DepthFormat::z16: return of_16_bits / 0xffff;
     case DepthFormat::z24: return unit / 0xffffff;
     case DepthFormat::z32f: break;
   }
-  float below = static_cast<float>(std::max(z, 0.0));
-  if (below > 0 && static_cast<double>(below) > z) below = std::nextafter(below, 0.0f);
-  return static_cast<double>(std::nextafter(below, std::numeric_limits<float>::infinity())) -
-         static_cast<double>(below);
+  float below = static_cast<float>(std::max(largest_z, 0.0));
+  if (below > 0 && static_cast<double>(below) > largest_z) below = std::nextafter(below, 0.0f);
+  return static_cast<long double>(std::nextafter(below, std::numeric_limits<float>::infinity())) - below;
 }
-
-}  // namespace
 
 OffsetBounds polygon_offset(const Projected& scene, const Triangle& t, const PolygonOffset& offset) {
   if (offset == PolygonOffset{}) return {};
@@ -50,9 +44,8 @@ OffsetBounds polygon_offset(const Projected& scene, const Triangle& t, const Pol
   OffsetBounds out;
   if (units != 0) {
     if (scene.depth == DepthFormat::z32f && !std::isfinite(largest)) return {0, kInfinity};
-    const double unit =
-        scene.depth == DepthFormat::z16 ? scene.conventions.offset_unit.y : scene.conventions.offset_unit.x;
-    const double r_lo = step_at(scene.depth, unit, least), r_hi = step_at(scene.depth, unit, largest);
+    const auto r_at = [&](double z) { return static_cast<double>(offset_unit(scene.depth, scene.conventions, z)); };
+    const double r_lo = r_at(least), r_hi = r_at(largest);
     out = {0.5 * units * (r_lo + r_hi), 0.5 * std::abs(units) * (r_hi - r_lo)};
   }
   if (factor == 0) return out;

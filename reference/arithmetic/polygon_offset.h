@@ -5,6 +5,10 @@
 
 namespace plumbline::math {
 
+/// r of OpenGL 4.5, section 14.6.5 [window z]. For float depths, the distance from the last float at or below
+/// `largest_z` to the next one. For codes OpenGL leaves it open: as many codes as the conventions' offset_unit.
+long double offset_unit(DepthFormat format, const Conventions& conventions, double largest_z);
+
 /// The offset of a triangle, all else of which project() has set up; `half` is infinite where the triangle has no
 /// reliable plane. r of unorm formats is that of the conventions.
 OffsetBounds polygon_offset(const Projected& scene, const Triangle& triangle, const PolygonOffset& offset);

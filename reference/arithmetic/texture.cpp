@@ -217,6 +217,18 @@ void add_slopes(const Texture& texture, int number, bool linear, glm::dvec2 st, 
   }
 }
 
+/// Error of weighted means where weights and results have n fraction bits: each weight (within two levels, and between
+/// them) is off by 2^-n, each of the three results by half of that.
+glm::dvec4 weights_error(const Texture& texture, const TexelRange& range, const LevelRules& rules) {
+  const bool means = range.last_linear >= range.first_linear || range.last_nearest > range.first_nearest;
+  if (rules.weight_bits == Conventions::kFloat || !means) return glm::dvec4(0);
+  const int coarsest = std::max({range.last_linear, range.last_nearest, 0});
+  const TextureLevel& level = texture.levels[static_cast<std::size_t>(coarsest)];
+  const glm::dvec4 neighbours = range.slope_s / static_cast<double>(level.width) +
+                                range.slope_t / static_cast<double>(level.height) + (range.hi - range.lo);
+  return std::ldexp(1.0, -rules.weight_bits) * (neighbours + 1.5);
+}
+
 }  // namespace
 
 bool depends_on_lambda(const Sampler& s) {
@@ -244,17 +256,20 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
     }
   };
   add(lambda_lo);
-  if (!depends_on_lambda(texture.sampler) ||
-      (lambda_lo <= lambda_hi && lambda_hi <= magnified_up_to(texture.sampler, rules)))
-    return out;
-  add(lambda_hi);
-  // Level and filter change at multiples of a half of lambda only; between these the texel is linear in lambda. A
-  // little beyond each multiple the next choice is made.
-  constexpr double kMost = 16, kBeyond = 1e-9;
-  for (double at = std::ceil(2 * std::max(lambda_lo, -1.0)) / 2; at <= std::min(lambda_hi, kMost); at += 0.5) {
-    add(at);
-    if (at + kBeyond <= lambda_hi || rules.half_way_either) add(at + kBeyond);
+  const bool is_magnified = lambda_lo <= lambda_hi && lambda_hi <= magnified_up_to(texture.sampler, rules);
+  if (depends_on_lambda(texture.sampler) && !is_magnified) {
+    add(lambda_hi);
+    // Level and filter change at multiples of a half of lambda only; between these the texel is linear in lambda. A
+    // little beyond each multiple the next choice is made.
+    constexpr double kMost = 16, kBeyond = 1e-9;
+    for (double at = std::ceil(2 * std::max(lambda_lo, -1.0)) / 2; at <= std::min(lambda_hi, kMost); at += 0.5) {
+      add(at);
+      if (at + kBeyond <= lambda_hi || rules.half_way_either) add(at + kBeyond);
+    }
   }
+  const glm::dvec4 of_weights = weights_error(texture, out, rules);
+  out.lo -= of_weights;
+  out.hi += of_weights;
   return out;
 }
 
@@ -277,18 +292,6 @@ bool within_slopes(const Texture& texture, const TexelRange& range, double bound
   return bound * std::max(finest.width, finest.height) < 0.5;
 }
 
-/// Error of weighted means where weights and results have n fraction bits: each weight (within two levels, and between
-/// them) is off by 2^-n, each of the three results by half of that.
-glm::dvec4 weights_error(const Texture& texture, const TexelRange& range, const LevelRules& rules) {
-  const bool means = range.last_linear >= range.first_linear || range.last_nearest > range.first_nearest;
-  if (rules.weight_bits == Conventions::kFloat || !means) return glm::dvec4(0);
-  const int coarsest = std::max({range.last_linear, range.last_nearest, 0});
-  const TextureLevel& level = texture.levels[static_cast<std::size_t>(coarsest)];
-  const glm::dvec4 neighbours = range.slope_s / static_cast<double>(level.width) +
-                                range.slope_t / static_cast<double>(level.height) + (range.hi - range.lo);
-  return std::ldexp(1.0, -rules.weight_bits) * (neighbours + 1.5);
-}
-
 }  // namespace
 
 BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedFour& fragment,
@@ -299,7 +302,7 @@ BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& st
   const bool open = !(place.bound < std::min(range.gap.s, range.gap.t)) ||
                     !within_slopes(texture, range, place.bound) || !std::isfinite(fragment.bound);
   if (open) return {out.value, std::numeric_limits<double>::infinity()};
-  const glm::dvec4 slack = (range.slope_s + range.slope_t) * place.bound + weights_error(texture, range, rules);
+  const glm::dvec4 slack = (range.slope_s + range.slope_t) * place.bound;
   const glm::dvec4 lo = range.lo - slack, hi = range.hi + slack;
   // Every environment is linear in each of Cf, Af, Cs and As: its extremes are at the ends of their intervals.
   for (unsigned ends = 0; ends < 16; ++ends) {

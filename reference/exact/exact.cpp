@@ -21,7 +21,7 @@ class Exact : public Renderer {
  public:
   RendererInfo info() const override;
   Capture capture(const Scene& scene, const Request& request) override;
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override;
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& by) override;
 
  private:
   Capture empty_capture(const Scene& scene) const;
@@ -42,7 +42,7 @@ Capture Exact::empty_capture(const Scene& scene) const {
   return out;
 }
 
-Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
+Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& by) {
   Capture out = empty_capture(scene);
   const Records<double>& records = in.records;
   switch (stage) {
@@ -64,12 +64,12 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
       window_varyings(scene, records, out.records);
       break;
     case Stage::coverage: cover_triangles(scene, records.triangles, Request{}.memory_budget, out); break;
-    case Stage::depth: out.records.depth = fragment_depths(scene, records); break;
+    case Stage::depth: out.records.depth = fragment_depths(scene, records, by); break;
     case Stage::attributes:
       out.records.attributes = fragment_attributes(scene, records);
       fragment_varyings(scene, records, out.records);
       break;
-    case Stage::texture: filter_texels(scene, records, out); break;
+    case Stage::texture: filter_texels(scene, records, by, out); break;
     case Stage::shade: out.records.shaded = shade_fragments(scene, records); break;
     case Stage::visibility:
       out.records.drawn = drawn_fragments(scene, records, out.planes.stencil);

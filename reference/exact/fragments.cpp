@@ -4,47 +4,31 @@
 #include <cmath>
 
 #include "reference/arithmetic/passes.h"
+#include "reference/arithmetic/polygon_offset.h"
 #include "reference/exact/input.h"
 
 namespace plumbline::exact {
 namespace {
 
-/// r of OpenGL 4.5, section 14.6.5: for float depths 2^(e - 23), e the exponent (-126 or more) of the corners' largest
-/// depth; for n-bit codes, where OpenGL leaves it open, Mesa's two steps of 1 / (2^n - 1).
-long double offset_unit(DepthFormat format, double largest_z) {
-  int bits = 0;
-  switch (format) {
-    case DepthFormat::z8: bits = 8; break;
-    case DepthFormat::z16: bits = 16; break;
-    case DepthFormat::z24: bits = 24; break;
-    case DepthFormat::z32f: {
-      int exponent = 0;  // largest_z is in [1/2, 1) * 2^exponent
-      std::frexp(std::max(largest_z, 0x1p-126), &exponent);
-      return std::ldexp(1.0L, exponent - 1 - 23);
-    }
-  }
-  return 2 / (std::ldexp(1.0L, bits) - 1);
-}
-
 /// OpenGL 2.1 spec, equations 3.10 to 3.13: m the larger of |dz/dx|, |dz/dy|.
-long double polygon_offset(DepthFormat format, const PolygonOffset& offset, const WindowTriangle<double>& triangle,
-                           const Barycentric& weights) {
+long double polygon_offset(DepthFormat format, const Conventions& by, const PolygonOffset& offset,
+                           const WindowTriangle<double>& triangle, const Barycentric& weights) {
   if (triangle.corners < 3 || offset == PolygonOffset{}) return 0;
   const double z0 = triangle.v[0].p_win.z, z1 = triangle.v[1].p_win.z, z2 = triangle.v[2].p_win.z;
   const auto slope = weights.slope(z1 - z0, z2 - z0);
   const auto size = [](Float128 v) { return static_cast<long double>(v < 0 ? -v : v); };
   const long double m = std::max(size(slope[0]), size(slope[1]));
-  return m * offset.factor + offset_unit(format, std::max({z0, z1, z2})) * offset.units;
+  return m * offset.factor + math::offset_unit(format, by, std::max({z0, z1, z2})) * offset.units;
 }
 
 }  // namespace
 
 // GL 4.5 compatibility, section 17.3.6: depth clamp clamps to glDepthRange's range, whichever end is the larger.
 DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
-                     const Barycentric& weights) {
+                     const Barycentric& weights, const Conventions& by) {
   DepthRule rule;
   rule.place = math::sample_offset(scene.frame);
-  rule.offset = polygon_offset(scene.frame.depth, draw.polygon_offset, triangle, weights);
+  rule.offset = polygon_offset(scene.frame.depth, by, draw.polygon_offset, triangle, weights);
   if (!scene.depth_clamp) return rule;
   const double near = draw.depth_range.near, far = draw.depth_range.far;
   rule.low = std::min(near, far);
@@ -74,14 +58,14 @@ glm::dvec4 color_at(const WindowTriangle<double>& triangle, const Barycentric& w
   return glm::dvec4(over_w / one_over_w);
 }
 
-std::vector<double> fragment_depths(const Scene& scene, const Records<double>& records) {
+std::vector<double> fragment_depths(const Scene& scene, const Records<double>& records, const Conventions& by) {
   std::vector<double> depth;
   depth.reserve(records.covered.size());
   const DrawOf draw_of(scene);
   for (const FragmentRun& run : runs_by_triangle(scene, records)) {
     const WindowTriangle<double>& triangle = records.triangles[run.triangle];
     const Barycentric weights(triangle, scene.frame.width, scene.frame.height);
-    const DepthRule rule = depth_rule(scene, draw_of(triangle.primitive), triangle, weights);
+    const DepthRule rule = depth_rule(scene, draw_of(triangle.primitive), triangle, weights, by);
     for (std::size_t i = run.first; i < run.last; ++i)
       depth.push_back(depth_at(triangle, weights, rule, records.covered[i].x, records.covered[i].y));
   }

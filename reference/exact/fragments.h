@@ -3,20 +3,21 @@
 
 #include <vector>
 
+#include "capture/conventions.h"
 #include "capture/stages.h"
 #include "reference/exact/barycentric.h"
 #include "scene/scene.h"
 
 namespace plumbline::exact {
 
-/// Per-triangle input of depth_at().
+/// Per-triangle input of depth_at(). Of the conventions, depth_rule() reads offset_unit.
 struct DepthRule {
   glm::dvec2 place{0};       ///< sample offset from the pixel's centre [pixels]
   double low = 0, high = 1;  ///< range to which depths are clamped
   long double offset = 0;    ///< polygon offset, added before the clamp
 };
 DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
-                     const Barycentric& weights);
+                     const Barycentric& weights, const Conventions& conventions = {});
 
 /// Window z of the plane through the corners at pixel (x, y)'s centre + rule.place, plus the polygon offset, clamped;
 /// not rounded to the depth format.
@@ -27,7 +28,7 @@ double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weigh
 glm::dvec4 color_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y);
 
 /// Stage 6: depth_at() of each of records.covered. Throws std::invalid_argument as runs_by_triangle() does.
-std::vector<double> fragment_depths(const Scene& scene, const Records<double>& records);
+std::vector<double> fragment_depths(const Scene& scene, const Records<double>& records, const Conventions& conventions);
 
 /// Stage 7: color_at() of each of records.covered. Throws std::invalid_argument as runs_by_triangle() does.
 std::vector<Attributes<double>> fragment_attributes(const Scene& scene, const Records<double>& records);

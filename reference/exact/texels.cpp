@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/arithmetic/texture.h"
 #include "reference/exact/input.h"
 
 namespace plumbline::exact {
@@ -20,7 +19,8 @@ using ThreeReals = std::array<Real, 3>;
 /// plane reaches the eye within the quad. The differences are of coordinates in float, each a quotient of sums with an
 /// error of 3 u of their terms, which are slopes from the window's origin: 6 u together, relative to the difference's
 /// length; a logarithm in float adds some u of its own magnitude.
-void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, double& lo, double& hi) {
+void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, const math::LevelRules& rules, double& lo,
+                     double& hi) {
   constexpr double kRounding = 1.0 / 16777216.0;
   const TextureLevel& base = t.texture.levels[static_cast<std::size_t>(t.texture.sampler.base_level)];
   const glm::dvec2 size(base.width, base.height);
@@ -38,9 +38,9 @@ void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, dou
         glm::length(size * (glm::abs(st) + glm::abs(g.d_dx) * (qx + 1.0) + glm::abs(g.d_dy) * (qy + 1.0)));
     const double error = rho > 0 ? kRounding * (6 * terms / rho + 4 * (1 + std::abs(std::log2(rho)))) : 0;
     const double least = std::max(1 - error, 0.0), most = 1 + error;
-    lo = std::min(lo, ahead ? math::smallest_level_of_detail(t.texture, least * g.d_dx, least * g.d_dy)
+    lo = std::min(lo, ahead ? math::smallest_level_of_detail(t.texture, least * g.d_dx, least * g.d_dy, rules)
                             : static_cast<double>(t.texture.sampler.min_lod));
-    hi = std::max(hi, ahead ? math::largest_level_of_detail(t.texture, most * g.d_dx, most * g.d_dy)
+    hi = std::max(hi, ahead ? math::largest_level_of_detail(t.texture, most * g.d_dx, most * g.d_dy, rules)
                             : static_cast<double>(t.texture.sampler.max_lod));
   }
 }
@@ -69,18 +69,20 @@ TextureGradient texture_gradient(const TexturedTriangle& t, int x, int y) {
   return {quotient(d_dx), quotient(d_dy)};
 }
 
-Texel<double> texel_at(const TexturedTriangle& t, glm::dvec2 st, int x, int y) {
+Texel<double> texel_at(const TexturedTriangle& t, glm::dvec2 st, int x, int y, const math::LevelRules& rules) {
   const TextureGradient g = texture_gradient(t, x, y);
   const double lod = math::level_of_detail(t.texture, g.d_dx, g.d_dy);
-  return {math::filtered_texel(t.texture, st, lod), lod};
+  return {math::filtered_texel(t.texture, st, lod, rules), lod};
 }
 
-void filter_texels(const Scene& scene, const Records<double>& records, Capture& out) {
+void filter_texels(const Scene& scene, const Records<double>& records, const Conventions& conventions, Capture& out) {
   if (!textured(scene)) return;
+  const math::LevelRules rules = math::level_rules(conventions);
   const VaryingColumns<double>& st = records.varyings[Varying::texture];
   require_size("records.varyings.texture", st.fragments.size(), records.covered.size());
   require_size("records.varyings.texture", st.triangles.size(), records.triangles.size());
   const bool own_lod = !records.texels.empty();
+  const bool judges_interval = own_lod && conventions.level_of_detail != Conventions::LevelOfDetail::per_pixel;
   if (own_lod) require_size("records.texels", records.texels.size(), records.covered.size());
   out.records.texels.resize(records.covered.size());
   out.legal.texels.resize(records.covered.size());
@@ -99,12 +101,12 @@ void filter_texels(const Scene& scene, const Records<double>& records, Capture& 
       const auto [number, x, y] = records.covered[i];
       const glm::dvec2 at(st.fragments[i]);
       Texel<double>& texel = out.records.texels[i];
-      texel = texel_at(t, at, x, y);
+      texel = texel_at(t, at, x, y, rules);
       if (own_lod && !std::isnan(records.texels[i].lod))
-        texel.color = math::filtered_texel(texture, at, records.texels[i].lod);
+        texel.color = math::filtered_texel(texture, at, records.texels[i].lod, rules);
       double lo = 0, hi = 0;
-      if (math::depends_on_lambda(texture.sampler)) lambda_interval(t, at, x, y, lo, hi);
-      out.legal.texels[i] = math::texel_range(texture, at, lo, hi);
+      if (math::depends_on_lambda(texture.sampler) || judges_interval) lambda_interval(t, at, x, y, rules, lo, hi);
+      out.legal.texels[i] = math::texel_range(texture, at, lo, hi, rules);
     }
   }
 }

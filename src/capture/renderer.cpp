@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-Capture Renderer::run_stage(const Scene&, Stage stage, const Capture&) {
+Capture Renderer::run_stage(const Scene&, Stage stage, const Capture&, const Conventions&) {
   throw Unsupported(fmt::format("{} cannot run stage {} alone", info().name, name_of(stage)));
 }
 

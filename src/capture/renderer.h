@@ -114,8 +114,9 @@ class Renderer {
   /// records where it is empty), for visibility and merge the frame's clear values: the returned capture holds that
   /// stage's records or planes, nothing else. Coverage hands out records.covered and the planes count and id_sum;
   /// visibility planes.id and planes.stencil; merge planes.color and planes.depth; resolve planes.color, of in.samples.
-  /// Throws Unsupported where info()[stage].runs is false.
-  virtual Capture run_stage(const Scene& scene, Stage stage, const Capture& in);
+  /// `conventions`: those that no change of the scene or of `in` expresses (offset_unit, texture_bits, level_of_detail,
+  /// magnified, half_way_level) are followed by exact alone. Throws Unsupported where info()[stage].runs is false.
+  virtual Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions = {});
 };
 
 /// Throws std::invalid_argument where the samples are not those of the scene's passes, in number and size.

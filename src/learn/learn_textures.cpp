@@ -53,12 +53,14 @@ void learn_weights(Prober& prober) {
   const auto code = [](int x, int y) { return (x * 83 + y * 151 + 11) % 256; };
   Texture texture = texture_of(4, code);
   texture.sampler.min = MinFilter::linear, texture.sampler.mag = MagFilter::linear;
-  const Plane<glm::vec4> color = prober.draw(textured_frame("texture_weights", texture, 1)).color;
+  constexpr float kMost = 61.0f / 64;  // weights are multiples of 2^-11: none of fewer bits holds them
+  const Plane<glm::vec4> color = prober.draw(textured_frame("texture_weights", texture, kMost)).color;
   double most = 0, highest = -std::numeric_limits<double>::infinity();
+  double step = 0;  // of the coarsest weights that explain each texel
   const C& c = prober.learned.conventions;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
-      const glm::dvec2 at = 4.0 * (glm::dvec2(x, y) + c.sample) / static_cast<double>(kTexturedSize) - 0.5,
+      const glm::dvec2 at = 4.0 * kMost * (glm::dvec2(x, y) + c.sample) / static_cast<double>(kTexturedSize) - 0.5,
                        low = glm::floor(at);
       const glm::dvec2 share = at - low;
       const auto grey = [&](int dx, int dy) {
@@ -70,15 +72,18 @@ void learn_weights(Prober& prober) {
       const double off = 255 * static_cast<double>(color(x, y).r) - exact;
       most = farther(most, off);
       highest = std::max(highest, off);
+      // A weight is off by a step, of each direction's neighbours; three means are rounded to half a step.
+      const double along_x = std::max(std::abs(grey(1, 0) - grey(0, 0)), std::abs(grey(1, 1) - grey(0, 1))),
+                   along_y = std::max(std::abs(grey(0, 1) - grey(0, 0)), std::abs(grey(1, 1) - grey(1, 0)));
+      step = std::max(step, (std::abs(off) - 0.5) / (along_x + along_y + 1.5 * 255));
     }
   }
   const std::string evidence = fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * kTexturedSize, most);
   // Weights of few bits are off towards either neighbour: no texel is above the exact one where mixes are truncated.
   if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");
-  int bits = c.color_rounding != C::Rounding::nearest && most <= 1.01 ? C::kFloat : most <= 0.51 ? C::kFloat : 12;
-  // A weight is off by a step, of neighbours up to 255 codes apart in each direction; three means round.
-  while (bits > 0 && most > 0.5 + std::ldexp(255.0, -bits) * (1 + 1.5)) --bits;
-  if (bits == 0 || (bits > 0 && bits < 4)) return prober.fits_none(words, evidence);
+  const bool are_float = most <= (c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01);
+  const int bits = are_float ? C::kFloat : std::min(static_cast<int>(std::floor(-std::log2(step))), 12);
+  if (!are_float && bits < 4) return prober.fits_none(words, evidence);
   prober.learned.conventions.texture_bits = bits;
   prober.found(words, bits_text(bits), evidence);
 }

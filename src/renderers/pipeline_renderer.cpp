@@ -63,8 +63,8 @@ class PipelineRenderer : public Renderer {
     return out;
   }
 
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
-    if (!info()[stage].runs) return Renderer::run_stage(scene, stage, in);
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& by) override {
+    if (!info()[stage].runs) return Renderer::run_stage(scene, stage, in, by);
     if (stage == Stage::resolve) return resolved(scene, in.samples);
     Capture out = empty_capture(scene);
     pipeline::run_stage(scene, stage, stages_, in, out);

@@ -26,8 +26,8 @@ class Ignoring : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override {
     return inner_->capture(changed(scene), request);
   }
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
-    return inner_->run_stage(changed(scene), stage, in);
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) override {
+    return inner_->run_stage(changed(scene), stage, in, conventions);
   }
 
  private:

@@ -51,8 +51,8 @@ class Ending final : public Renderer {
     if (scene.name == ending_.scene) end();
     return inner_->capture(scene, request);
   }
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
-    return inner_->run_stage(scene, stage, in);
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) override {
+    return inner_->run_stage(scene, stage, in, conventions);
   }
 
  private:

@@ -33,8 +33,8 @@ class ExactOnce : public Renderer {
     return known != captures_.end() ? known->second
                                     : captures_.emplace(key, exact_->capture(scene, request)).first->second;
   }
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
-    return exact_->run_stage(scene, stage, in);
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) override {
+    return exact_->run_stage(scene, stage, in, conventions);
   }
 
  private:

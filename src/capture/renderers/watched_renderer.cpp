@@ -44,9 +44,9 @@ class WatchedRenderer : public Renderer {
     return in_step(watch_, number_of_step(number_, picture ? kPaint : kDraw),
                    [&] { return inner_->capture(scene, request); });
   }
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) override {
     const std::uint32_t step = number_of_step(number_, static_cast<std::uint32_t>(stage));
-    return in_step(watch_, step, [&] { return inner_->run_stage(scene, stage, in); });
+    return in_step(watch_, step, [&] { return inner_->run_stage(scene, stage, in, conventions); });
   }
 
  private:

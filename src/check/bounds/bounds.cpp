@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "check/bounds/barycentrics.h"
+#include "reference/arithmetic/polygon_offset.h"
 
 namespace plumbline::check {
 
@@ -188,20 +189,8 @@ PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, i
   return out;
 }
 
-namespace {
-
-/// r of PolygonOffset (OpenGL 4.5, section 14.6.5) at the largest window z.
-double offset_unit(DepthFormat format, double z) {
-  const double codes = depth_scale(format);
-  if (codes > 0) return 2 / codes;
-  int exponent = 0;  // z is in [1/2, 1) * 2^exponent
-  std::frexp(std::max(z, 0x1p-126), &exponent);
-  return std::ldexp(1.0, exponent - 1 - 23);
-}
-
-}  // namespace
-
-OffsetErrors::OffsetErrors(const Scene& scene) : draws_(scene) {
+OffsetErrors::OffsetErrors(const Scene& scene, const Conventions& conventions)
+    : draws_(scene), conventions_(conventions) {
   any_ = std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.polygon_offset != PolygonOffset{}; });
 }
 
@@ -214,8 +203,9 @@ double OffsetErrors::of(const WindowTriangle<double>& t) const {
   const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
   const double m = std::max(std::abs(glm::dot(b.d_dx, z)), std::abs(glm::dot(b.d_dy, z)));
   const double factor = std::abs(static_cast<double>(offset.factor)), units = static_cast<double>(offset.units);
-  const double r = offset_unit(draws_.scene().frame.depth, std::max({z.x, z.y, z.z}));
-  return factor * (4 * m + gradient_bound(t, z.x, z.y, z.z, m)) + 2 * (factor * m + std::abs(units) * r);
+  const auto r = math::offset_unit(draws_.scene().frame.depth, conventions_, std::max({z.x, z.y, z.z}));
+  return factor * (4 * m + gradient_bound(t, z.x, z.y, z.z, m)) +
+         2 * (factor * m + std::abs(units) * static_cast<double>(r));
 }
 
 double OffsetErrors::of(const Records<double>& r, std::int32_t primitive) const {

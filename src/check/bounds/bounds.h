@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "capture/conventions.h"
 #include "capture/stages.h"
 #include "reference/arithmetic/bounded.h"
 #include "scene/draw_index.h"
@@ -68,13 +69,14 @@ std::span<const WindowTriangle<double>> triangles_of(const Records<double>& reco
 /// it times |factor|, and two of the offset.
 class OffsetErrors {
  public:
-  explicit OffsetErrors(const Scene& scene);
+  explicit OffsetErrors(const Scene& scene, const Conventions& conventions = {});
   double of(const WindowTriangle<double>& triangle) const;
   /// The largest over a primitive's triangles.
   double of(const Records<double>& records, std::int32_t primitive) const;
 
  private:
   DrawIndex draws_;
+  Conventions conventions_;
   bool any_;  // whether any draw has an offset
 };
 

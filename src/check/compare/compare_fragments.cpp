@@ -123,7 +123,7 @@ Measurement compare_open_covered(const Capture& candidate, const Records<double>
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions, double from_origin) {
   const double middle = middle_of(conventions.depth_rounding);
-  const OffsetErrors offsets(scene);
+  const OffsetErrors offsets(scene, conventions);
   // Error of a stranger's depth in float [window z]: by the declared arithmetic; else, in formats that are float, by
   // planes from the window's origin.
   const auto float_error = [&](const WindowTriangle<double>& t, const Covered& c) {

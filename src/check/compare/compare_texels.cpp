@@ -10,6 +10,7 @@
 #include "check/bounds/mean_bounds.h"
 #include "check/bounds/texture_bounds.h"
 #include "check/bounds/units.h"
+#include "reference/arithmetic/texture.h"
 
 namespace plumbline::check {
 
@@ -49,10 +50,35 @@ class LodRounding {
   DrawIndex draws_;
 };
 
+// Legal texels of fragments at their own texture coordinates and levels of detail, by the candidate's conventions.
+class TexelsAtLevels {
+ public:
+  TexelsAtLevels(const Scene& scene, const Records<double>& records, const Conventions& conventions)
+      : scene_(scene), records_(records), draws_(scene), rules_(math::level_rules(conventions)) {}
+
+  TexelRange operator()(std::size_t i) const {
+    const Covered& c = records_.covered[i];
+    const auto& texcoords = records_.varyings[Varying::texture].fragments;
+    TexelRange none;
+    none.lo = none.hi = {0, 0, 0, 1};
+    if (c.triangle >= records_.triangles.size() || i >= texcoords.size()) return none;
+    const Draw* draw = draws_.draw(records_.triangles[c.triangle].primitive);
+    if (draw == nullptr || !draw->texture) return none;
+    const double lod = records_.texels[i].lod;
+    return math::texel_range(scene_.textures.at(draw->texture->texture), Vec2<double>(texcoords[i]), lod, lod, rules_);
+  }
+
+ private:
+  const Scene& scene_;
+  const Records<double>& records_;
+  DrawIndex draws_;
+  math::LevelRules rules_;
+};
+
 }  // namespace
 
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor, const std::vector<TexelRange>* legal) {
+                           double factor, const std::vector<TexelRange>* legal, const Conventions& conventions) {
   const std::size_t count = candidate.covered.size();
   if (candidate.texels.size() != count || reference.texels.size() != count) {
     return mismatch("u", "not a texel for each fragment", std::max(candidate.texels.size(), count));
@@ -60,14 +86,18 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   double magnitude = 1;
   for (const Texture& texture : scene.textures) magnitude = std::max(magnitude, largest_texel(texture));
   const LodRounding rounding(scene, candidate);
+  const TexelsAtLevels at_level(scene, candidate, conventions);
   Meter meter("u");
+  const bool is_foreign = legal != nullptr && legal->size() == count;
+  const bool is_per_pixel = conventions.level_of_detail == Conventions::LevelOfDetail::per_pixel;
   for (std::size_t i = 0; i < count; ++i) {
     const Covered& c = candidate.covered[i];
     const Texel<double>&a = candidate.texels[i], &b = reference.texels[i];
-    const bool lacks_lod = std::isnan(a.lod) && legal != nullptr && legal->size() == count;
+    const bool lacks_lod = is_foreign && std::isnan(a.lod);
+    const TexelRange range = !is_foreign ? TexelRange{} : lacks_lod ? (*legal)[i] : at_level(i);
     for (int k = 0; k < 4; ++k) {
       const double off =
-          lacks_lod ? outside(a.color[k], (*legal)[i].lo[k], (*legal)[i].hi[k]) : difference(a.color[k], b.color[k]);
+          is_foreign ? outside(a.color[k], range.lo[k], range.hi[k]) : difference(a.color[k], b.color[k]);
       meter.value(off / (u * magnitude), factor, {c.x, c.y, c.triangle, "texel"}, a.color[k], b.color[k]);
     }
     if (lacks_lod) {
@@ -76,8 +106,11 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
     }
     const double lod = std::max(a.lod, kLeastLod), exact = std::max(b.lod, kLeastLod);
     const double unit = u * std::max(1.0, std::abs(exact));
-    meter.value(difference(lod, exact) / unit, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
-                difference(lod, exact) <= factor * unit ? 0 : rounding(c) / unit);
+    const double off = is_foreign && !is_per_pixel ? outside(lod, std::max((*legal)[i].lambda_lo, kLeastLod),
+                                                             std::max((*legal)[i].lambda_hi, kLeastLod))
+                                                   : difference(lod, exact);
+    meter.value(off / unit, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
+                off <= factor * unit ? 0 : rounding(c) / unit);
     meter.item();
   }
   return meter.done();

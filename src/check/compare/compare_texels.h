@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "capture/capture.h"
+#include "capture/conventions.h"
 #include "check/verdict/measure.h"
 #include "scene/scene.h"
 
@@ -14,9 +15,12 @@ namespace plumbline::check {
 /// of the largest component of all textures, at least 1. Levels of detail lambda: `factor` u of |lambda|, at least 1,
 /// and their rounding in double; all below -16, which no texture is large enough for, count as -16.
 ///
-/// `legal`: exact's legal texels, by which a texel without a level of detail (NaN) is compared; null: each has one.
+/// `legal`: exact's legal texels of a foreign candidate, or null. Its texel may be any that `conventions` allow at its
+/// level of detail or, where it hands out none (NaN), at any legal one; its level of detail is exact's or, where levels
+/// are not per pixel, within the legal interval.
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor, const std::vector<TexelRange>* legal = nullptr);
+                           double factor, const std::vector<TexelRange>* legal = nullptr,
+                           const Conventions& conventions = {});
 
 /// The winners' texels where the winners are the same, in u: within the candidate's legal.texels and FragmentBounds'
 /// slack. Where it is open which texel is the nearest, any is legal. Of such pixels p are predicted; more than

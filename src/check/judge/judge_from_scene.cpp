@@ -56,7 +56,7 @@ bool lacks_texels(const Case& c, Stage stage) {
 // side_by_side(), or a row that says why nothing is compared.
 void judge_beside(const Case& c, const Capture& theirs, const RendererInfo& of, Stage stage, const JudgeId& name) {
   const auto skip = [&](std::string_view why) { c.skip(name, stage, Outcome::unsupported, why); };
-  if (draws_otherwise(c.conventions, stage))
+  if (draws_otherwise(c.scene, c.conventions, stage))
     return skip("it draws by other conventions: oracles and exact judge the stage");
   if (!of[stage].shows) return skip(of[stage].reason);
   if (of.legal && stage == Stage::attributes) return skip(kOnlyShaded);

@@ -186,14 +186,14 @@ Capture interpolate(Renderer& referee, const Scene& scene, Stage stage, const Ca
   const bool are_snapped = !is_float && conventions.attribute_corners == C::Corners::snapped;
   const bool is_affine = conventions.interpolation == C::Interpolation::affine && stage != Stage::depth;
   const bool turns_over = is_finer && std::ranges::any_of(in.records.triangles, is_turned_over);
-  if (!turns_over && !are_snapped && !is_affine) return referee.run_stage(scene, stage, in);
+  if (!turns_over && !are_snapped && !is_affine) return referee.run_stage(scene, stage, in, conventions);
   Capture between = in;
   for (WindowTriangle<double>& t : between.records.triangles) {
     if (are_snapped) move_to_grid(t, conventions);
     if (is_finer) face_as_it_lies(t);
     for (WindowVertex<double>& v : t.v) v.inv_w = is_affine ? 1 : v.inv_w;
   }
-  return referee.run_stage(scene, stage, between);
+  return referee.run_stage(scene, stage, between, conventions);
 }
 
 // ---- visibility
@@ -258,8 +258,11 @@ Capture merge_rounded(Renderer& referee, const Scene& scene, const Capture& in, 
 
 bool has_other_volume(const Conventions& conventions) { return conventions.clip_depth != C::ClipDepth::minus_w_to_w; }
 
-bool draws_otherwise(const Conventions& conventions, Stage stage) {
+bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage) {
   if (stage <= Stage::clip) return stage == Stage::clip && has_other_volume(conventions);
+  const auto is_moved = [](const Draw& draw) { return draw.polygon_offset.units != 0; };
+  if (stage >= Stage::depth && conventions.offset_unit != C().offset_unit && std::ranges::any_of(scene.draws, is_moved))
+    return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
 }

@@ -11,7 +11,7 @@ namespace plumbline::check {
 bool has_other_volume(const Conventions& conventions);
 
 /// Whether the conventions make another stage than OpenGL's.
-bool draws_otherwise(const Conventions& conventions, Stage stage);
+bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage);
 
 /// Whether run_by_conventions() knows which triangle owns a sample on an edge: the rule is settled (conventions.h,
 /// settles_ties), by left or right and bottom or top; window.snapped holds the grid (at most 8 bits); pixels are sampled
@@ -25,6 +25,8 @@ bool knows_ties(const Scene& scene, const Conventions& conventions);
 /// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between which
 ///   the renderer interpolates; where attribute_corners are snapped, the renderer interpolates between snapped corners;
 ///   attributes and texture: by 1/w = 1 where interpolation is affine;
+/// - depth: polygon offsets by offset_unit; texture: levels and weights by texture_bits, level_of_detail, magnified and
+///   half_way_level;
 /// - visibility: where alpha tests are in float, alphas are not rounded to codes;
 /// - merge: colours that are blended or combined with stored codes meet codes rounded, and blended, as declared.
 /// Throws as run_stage() does.

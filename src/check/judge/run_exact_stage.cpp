@@ -192,7 +192,7 @@ void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeI
       });
     case Stage::texture: {
       const std::vector<TexelRange>* legal = c.foreign ? &made.legal.texels : nullptr;
-      return add([&](double f) { return compare_texels(c.scene, mine, theirs, f, legal); });
+      return add([&](double f) { return compare_texels(c.scene, mine, theirs, f, legal, c.conventions); });
     }
     case Stage::shade:
       if (is_plain(c.scene)) return c.add(name, stage, compare_shaded(c.scene, mine, theirs, 0, copied_colors(c)));

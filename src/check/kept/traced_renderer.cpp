@@ -136,9 +136,9 @@ Capture TracedRenderer::capture(const Scene& scene, const Request& request) {
   return std::move(answer->capture);
 }
 
-Capture TracedRenderer::run_stage(const Scene& scene, Stage stage, const Capture& in) {
+Capture TracedRenderer::run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) {
   calls_.reset();
-  return inner_.run_stage(scene, stage, in);
+  return inner_.run_stage(scene, stage, in, conventions);
 }
 
 }  // namespace plumbline::check

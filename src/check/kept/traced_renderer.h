@@ -32,7 +32,7 @@ class TracedRenderer : public Renderer {
   TracedRenderer(const Scene& scene, Renderer& inner) : scene_(scene), inner_(inner) {}
   RendererInfo info() const override { return inner_.info(); }
   Capture capture(const Scene& scene, const Request& request) override;
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override;
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) override;
 
   /// Repeats these calls in order, up to the first that fails or whose answer or info() differs: then false. That one
   /// answer is held for the next capture() of the same request, which hands it out or throws it without drawing again;

@@ -26,9 +26,9 @@ class Changed : public Renderer {
     (request.planes == WantedPlanes::picture ? on_picture : on_capture)(out);
     return out;
   }
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) override {
     before_run(stage);
-    return inner_->run_stage(scene, stage, in);
+    return inner_->run_stage(scene, stage, in, conventions);
   }
   std::function<void(RendererInfo&)> on_info = [](auto&) {};
   std::function<void(const Request&)> before_capture = [](auto&) {};

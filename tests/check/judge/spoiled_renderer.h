@@ -74,12 +74,12 @@ class Spoiled : public Renderer {
     if (scene.frame.antialias.kind != Antialias::Kind::none) return out;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(Stage::merge); ++i) {
       const auto stage = static_cast<Stage>(i);
-      if (stage != Stage::texture || textured(scene)) copy_stage(stage, run_stage(scene, stage, out), out);
+      if (stage != Stage::texture || textured(scene)) copy_stage(stage, run_stage(scene, stage, out, {}), out);
     }
     return out;
   }
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
-    Capture out = inner_->run_stage(scene, stage, in);
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) override {
+    Capture out = inner_->run_stage(scene, stage, in, conventions);
     if (!wrong_.contains(stage)) return out;
     out.records.triangles = stage > Stage::window ? in.records.triangles : out.records.triangles;
     spoil(scene, stage, out);

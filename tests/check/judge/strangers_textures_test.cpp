@@ -1,0 +1,108 @@
+// Renderers of others whose textures and polygon offsets go by conventions that OpenGL leaves open, judged by their
+// records.
+#include <memory>
+#include <string>
+
+#include "check/judge/rows.h"
+#include "renderers/pipeline_renderer.h"
+#include "scene/file/scene_file.h"
+#include "tests/check/fixtures.h"
+#include "tests/learn/drawn_otherwise.h"
+
+namespace plumbline::check {
+namespace {
+
+using C = Conventions;
+
+Scene suite_scene(const std::string& name) { return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name, {}); }
+
+Capture drawn_by(const Scene& scene, decltype(pipeline::Stages::texture) texture) {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.texture = texture;
+  return pipeline::make_pipeline(stages)->capture(scene, {.records = StageSet::all()});
+}
+
+Comparison row(const Scene& scene, const Capture& candidate, Stage stage, const C& conventions) {
+  const Legal none;
+  const auto exact = exact::make_exact();
+  std::vector<Comparison> out;
+  const Case c{.scene = scene,
+               .candidate = candidate,
+               .legal = none,
+               .referee = exact.get(),
+               .rows = out,
+               .foreign = true,
+               .conventions = conventions};
+  run_exact_stage(c, *exact, stage, "exact");
+  return out.at(0);
+}
+
+void lose_levels(Capture& candidate) {
+  for (Texel<double>& texel : candidate.records.texels) texel.lod = kNaN;
+}
+
+// With levels of detail, and without; by the declared convention, and by OpenGL's.
+void expect_right_if_declared(const Scene& scene, Capture candidate, const C& declared) {
+  SCOPED_TRACE(scene.name);
+  EXPECT_EQ(row(scene, candidate, Stage::texture, C()).outcome, Outcome::different);
+  EXPECT_NE(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
+  lose_levels(candidate);
+  EXPECT_NE(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
+}
+
+TEST(StrangersTextures, ALevelOfDetailMayBeApproximatedWhereThatIsDeclared) {
+  C declared;
+  declared.level_of_detail = C::LevelOfDetail::approximate;
+  for (const char* name : {"texture/floor_linear_mipmap_linear.json", "texture/floor_nearest.json"}) {
+    const Scene scene = suite_scene(name);
+    Capture candidate = drawn_by(scene, test::by_largest_rho);
+    expect_right_if_declared(scene, candidate, declared);
+    declared.level_of_detail = C::LevelOfDetail::per_square;
+    EXPECT_EQ(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different) << "beyond a square's";
+    declared.level_of_detail = C::LevelOfDetail::approximate;
+    candidate.records.texels[40].lod += 1.25;
+    EXPECT_EQ(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different) << "beyond OpenGL's limit";
+  }
+}
+
+TEST(StrangersTextures, MagnificationMayEndAtZeroWhereThatIsDeclared) {
+  C declared;
+  declared.magnified = C::Magnified::up_to_zero;
+  const Scene scene = suite_scene("texture/wall_switch_over.json");
+  expect_right_if_declared(scene, drawn_by(scene, test::magnified_up_to_zero), declared);
+}
+
+TEST(StrangersTextures, EitherLevelIsNearestHalfWayWhereThatIsDeclared) {
+  C declared;
+  declared.half_way_level = C::HalfWay::either;
+  const Scene scene = suite_scene("texture/half_way_levels.json");
+  const Capture candidate = drawn_by(scene, test::half_way_up);
+  expect_right_if_declared(scene, candidate, declared);
+  const Capture ours = drawn_by(scene, pipeline::production_stages().texture);
+  EXPECT_NE(row(scene, ours, Stage::texture, declared).outcome, Outcome::different) << "the finer is either, too";
+}
+
+TEST(StrangersTextures, WeightsHaveTheDeclaredBits) {
+  C declared;
+  declared.texture_bits = 6;
+  const Scene scene = suite_scene("texture/board_linear.json");
+  const Capture candidate = drawn_by(scene, test::weights_of_6_bits);
+  expect_right_if_declared(scene, candidate, declared);
+  declared.texture_bits = 9;
+  EXPECT_EQ(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
+}
+
+TEST(StrangersTextures, APolygonOffsetHasTheDeclaredUnit) {
+  const Scene scene = suite_scene("polygon_offset/steps.json");
+  const Capture ours = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
+  const Capture candidate =
+      pipeline::make_pipeline()->capture(test::with_half_of_offsets(scene), {.records = StageSet::all()});
+  C declared;
+  declared.offset_unit = {1, 1};
+  EXPECT_EQ(row(scene, candidate, Stage::depth, C()).outcome, Outcome::different);
+  EXPECT_NE(row(scene, candidate, Stage::depth, declared).outcome, Outcome::different);
+  EXPECT_EQ(row(scene, ours, Stage::depth, declared).outcome, Outcome::different);
+}
+
+}  // namespace
+}  // namespace plumbline::check

@@ -1,0 +1,49 @@
+// Conventions of textures and polygon offsets that OpenGL leaves open, found in our renderer drawn by them.
+#include "tests/learn/altered_renderers.h"
+#include "tests/learn/drawn_otherwise.h"
+
+namespace plumbline::learn {
+namespace {
+
+C learned_by(decltype(pipeline::Stages::texture) texture) {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.texture = texture;
+  return learned(pipeline::make_pipeline(stages));
+}
+
+TEST(LearnTextures, LevelsOfDetailThatAreApproximatedAreFound) {
+  C expected = ours();
+  expected.level_of_detail = C::LevelOfDetail::approximate;
+  EXPECT_EQ(learned_by(test::by_largest_rho), expected);
+}
+
+TEST(LearnTextures, TheEndOfMagnificationIsFound) {
+  C expected = ours();
+  expected.magnified = C::Magnified::up_to_zero;
+  EXPECT_EQ(learned_by(test::magnified_up_to_zero), expected);
+}
+
+TEST(LearnTextures, LevelsHalfWayAreFound) {
+  C expected = ours();
+  expected.half_way_level = C::HalfWay::either;
+  EXPECT_EQ(learned_by(test::half_way_up), expected);
+}
+
+TEST(LearnTextures, WeightsOfFewBitsAreFound) {
+  C found = learned_by(test::weights_of_6_bits);
+  EXPECT_GE(found.texture_bits, 6);
+  EXPECT_LE(found.texture_bits, 8) << "rounded to nearest, a weight is half a step off, and no mean is rounded";
+  found.texture_bits = C::kFloat;
+  EXPECT_EQ(found, ours());
+}
+
+TEST(LearnTextures, APolygonOffsetsUnitIsFound) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) { scene = test::with_half_of_offsets(scene); };
+  C expected = ours();
+  expected.offset_unit = {1, 1};
+  EXPECT_EQ(learn(renderer).conventions, expected);
+}
+
+}  // namespace
+}  // namespace plumbline::learn
