@@ -173,12 +173,15 @@ Measurement compare_samples(const Scene& scene, const Capture& candidate, std::s
 }
 
 SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
-                          BothCaptures* drawn) {
+                          BothCaptures* drawn, std::uint64_t most_fragments) {
   std::vector<SceneVerdict> passes;
   std::vector<Plane<glm::vec4>> colors;
-  for (const Scene& pass : math::pass_scenes(scene)) {
+  const std::vector<Scene> scenes = math::pass_scenes(scene);
+  const bool is_limited = most_fragments != ~std::uint64_t{0};
+  for (const Scene& pass : scenes) {
     BothCaptures drawn_pass;
-    passes.push_back(judge_single(pass, candidate, references, &drawn_pass));
+    passes.push_back(judge_single(pass, candidate, references, &drawn_pass,
+                                  is_limited ? most_fragments / scenes.size() : most_fragments));
     colors.push_back(std::move(drawn_pass.candidate.planes.color));
   }
   return judge_resolved(scene, passes, colors, candidate, references, drawn);

@@ -1,6 +1,7 @@
 // An antialiased scene: each pass is judged as a scene of its own, then the resolved frame.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <span>
 #include <string>
@@ -13,9 +14,9 @@
 namespace plumbline::check {
 
 /// Verdict of an antialiased scene: each row is the worst of its passes' (judge_single.h), with the items of all; row
-/// `resolve` is of the whole picture.
+/// `resolve` is of the whole picture. Of `most_fragments` each pass has its share.
 SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
-                          BothCaptures* drawn);
+                          BothCaptures* drawn, std::uint64_t most_fragments);
 /// The same, where the passes have been judged: their verdicts in order, and the candidate's colours of each (empty:
 /// none). A candidate that draws passes of its own must draw these (exact's row `resolve`).
 SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> passes,

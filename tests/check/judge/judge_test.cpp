@@ -300,5 +300,21 @@ TEST_F(Judge, AWinnerApartIsOnePixelApart) {
 
 TEST_F(Judge, WithoutReferencesThereIsNoVerdict) { EXPECT_TRUE(run(std::vector<Reference>{}).empty()); }
 
+TEST_F(Judge, RecordsOfMoreFragmentsThanTheLimitAreNotJudgedOneByOne) {
+  for (const Antialias::Kind kind : {Antialias::Kind::none, Antialias::Kind::supersample}) {
+    scene.frame.antialias = {kind, 2};
+    const Reference references[] = {{"exact", &referee}};
+    for (const std::uint64_t most : {~std::uint64_t{0}, std::uint64_t{4}}) {
+      int rows = 0;
+      for (const Comparison& c : judge(scene, candidate, references, nullptr, most).comparisons) {
+        if (c.stage != Stage::depth || c.judge.kind != Kind::per_stage) continue;
+        ++rows;
+        EXPECT_EQ(c.outcome == Outcome::unsupported, most == 4) << c.note;
+      }
+      EXPECT_EQ(rows, 1);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::check
