@@ -13,7 +13,7 @@
 
 namespace plumbline::pipeline {
 
-/// Planes of q_1 = l_1 / w_1, q_2 = l_2 / w_2 and sum = q_0 + q_1 + q_2. inv_w: the corners' 1/w, read by tests/faults
+/// Planes of q_1 = l_1 / w_1, q_2 = l_2 / w_2 and sum = q_0 + q_1 + q_2. inv_w: the corners' 1/w, read by src/faults
 /// alone.
 struct PerspectiveSetup {
   std::array<float, 3> inv_w;

@@ -93,7 +93,7 @@ TEST(Readme, IsReadInFiveMinutes) {
 }
 
 TEST(Readme, QuotesTheFaultsCode) {
-  const std::string readme = read(PLUMBLINE_SOURCE_DIR "/README.md"), file = "tests/faults/raster.cpp";
+  const std::string readme = read(PLUMBLINE_SOURCE_DIR "/README.md"), file = "src/faults/raster.cpp";
   const std::size_t from = readme.find('`', readme.find("`" + file + "`") + file.size() + 2) + 1;
   const std::string quoted = readme.substr(from, readme.find('`', from) - from);
   EXPECT_GT(quoted.size(), 20u);

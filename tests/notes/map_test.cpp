@@ -68,11 +68,13 @@ std::string wrong(const Place& place) {
     return scene ? "" : place.file + ": it is no scene";
   }
   const std::string source = read(file);
-  const bool found = is_in("src/")            ? has_name(source, place.name)
-                     : is_in("tests/faults/") ? source.find("\"" + place.name + "\"") != std::string::npos
-                                              : has_test(source, place.name);
+  const bool found = is_in("src/faults/") ? source.find("\"" + place.name + "\"") != std::string::npos
+                     : is_in("src/")      ? has_name(source, place.name)
+                                          : has_test(source, place.name);
   return found && !place.name.empty() ? "" : fmt::format("{}: there is no {} in it", place.file, place.name);
 }
+
+bool is_fault(const Place& place) { return place.file.starts_with("src/faults/"); }
 
 /// What is wrong with a row; empty: nothing.
 std::string wrong(const Teaching& t) {
@@ -85,12 +87,13 @@ std::string wrong(const Teaching& t) {
   if (t.where.empty() != t.shown_by.empty()) say("there is a function without a test or scene, or one without it");
   if (t.mistake.empty() != t.mistake_shown_by.empty()) say("there is a mistake without a test, or one without it");
   for (const Place& place : t.where) {
-    if (!place.file.starts_with("src/")) say(place.file + ": expected a file of src");
+    if (!place.file.starts_with("src/") || is_fault(place)) say(place.file + ": expected a file of src, and no fault");
     say(wrong(place));
   }
   for (const auto& places : {t.shown_by, t.mistake_shown_by}) {
     for (const Place& place : places) {
-      if (!place.file.starts_with("tests/")) say(place.file + ": expected a file of tests");
+      if (!place.file.starts_with("tests/") && !is_fault(place))
+        say(place.file + ": expected a file of tests, or a fault");
       say(wrong(place));
     }
   }
@@ -135,7 +138,7 @@ TEST(NotesMap, NamesAllTestsAndFaultsOfTheNotes) {
       EXPECT_TRUE(named.contains(test)) << name << ": " << test;
     }
   }
-  for (const std::string& fault : found(PLUMBLINE_SOURCE_DIR "/tests/faults/notes.cpp", "\"(notes\\.[^\"]+)\"")) {
+  for (const std::string& fault : found(PLUMBLINE_SOURCE_DIR "/src/faults/notes.cpp", "\"(notes\\.[^\"]+)\"")) {
     ++seen;
     EXPECT_TRUE(named.contains(fault)) << fault;
   }
@@ -158,8 +161,8 @@ TEST(NotesMap, AWrongNameIsSeen) {
   EXPECT_EQ(fault_of("tests/scenes/notes/gl_solids.json"), "");
   EXPECT_NE(fault_of("tests/scenes/notes/gl_solid.json"), "");
   EXPECT_NE(fault_of("tests/scenes/notes/solids.part.json"), "") << "a part of scenes";
-  EXPECT_EQ(fault_of("tests/faults/raster.cpp: attributes.affine"), "");
-  EXPECT_NE(fault_of("tests/faults/raster.cpp: attributes.affin"), "");
+  EXPECT_EQ(fault_of("src/faults/raster.cpp: attributes.affine"), "");
+  EXPECT_NE(fault_of("src/faults/raster.cpp: attributes.affin"), "");
 }
 
 TEST(NotesMap, ARowWithNothingInItIsSeen) {

@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "faults/pixel_barycentrics.h"
 #include "kernels/coverage.h"
 #include "kernels/visibility.h"
 #include "pipeline/stages.h"
 #include "tests/at_weights.h"
-#include "tests/kernels/barycentric.h"
 #include "tests/pipeline/window_triangles.h"
 
 namespace plumbline::pipeline {

@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "faults/pixel_barycentrics.h"
 #include "kernels/attributes.h"
 #include "kernels/coverage.h"
 #include "kernels/depth.h"
 #include "kernels/line_diamond.h"
 #include "pipeline/geometry.h"
 #include "renderers/pipeline_renderer.h"
-#include "tests/kernels/barycentric.h"
 #include "tests/pipeline/window_triangles.h"
 
 namespace plumbline::pipeline {

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "faults/pixel_barycentrics.h"
 #include "kernels/attributes.h"
 #include "kernels/coverage.h"
 #include "kernels/depth.h"
 #include "pipeline/stages.h"
-#include "tests/kernels/barycentric.h"
 
 namespace plumbline::test {
 

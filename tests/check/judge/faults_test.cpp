@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "faults/faults.h"
-#include "faults/legal.h"
+#include "matrix/legal.h"
 #include "matrix/matrix.h"
 #include "matrix/report.h"
 #include "pipeline/stages.h"

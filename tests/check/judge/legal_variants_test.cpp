@@ -4,7 +4,7 @@
 #include "capture/files/capture_folder.h"
 #include "check/judge/judge.h"
 #include "check/judge/judge_records.h"
-#include "faults/legal.h"
+#include "matrix/legal.h"
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
 #include "tests/check/suite_scenes.h"

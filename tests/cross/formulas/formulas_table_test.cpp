@@ -1,6 +1,7 @@
 // The formulas of the notes that are no matrices, ours beside an evaluation of their own, in integers or in a wider
 // format: the table goes on (transforms_table_test.cpp). What is an integer is equal. Of a sum, the unit is an ULP of
 // its largest term, or of the sum where that is larger: at most 4, as there. In a million inputs 3.5 is seen.
+#include "faults/pixel_barycentrics.h"
 #include "kernels/attributes.h"
 #include "kernels/coverage.h"
 #include "kernels/depth.h"
@@ -10,7 +11,6 @@
 #include "scene/frame_buffer.h"
 #include "tests/at_weights.h"
 #include "tests/cross/transforms_table.h"
-#include "tests/kernels/barycentric.h"
 #include "tests/pipeline/window_triangles.h"
 #include "transforms/projection.h"
 

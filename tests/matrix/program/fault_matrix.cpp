@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "faults/faults.h"
-#include "faults/legal.h"
+#include "matrix/legal.h"
 #include "matrix/report.h"
 #include "pipeline/stages.h"
 #include "scene/file/scene_file.h"

@@ -1,4 +1,4 @@
-#include "faults/legal.h"
+#include "matrix/legal.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "faults/pixel_barycentrics.h"
 #include "faults/variants.h"
 #include "pipeline/geometry.h"
-#include "tests/kernels/barycentric.h"
 
 namespace plumbline::faults {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "faults/pixel_barycentrics.h"
 #include "kernels/coverage.h"
 #include "pipeline/geometry.h"
 #include "pipeline/stages.h"
-#include "tests/kernels/barycentric.h"
 
 namespace plumbline::faults {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "faults/pixel_barycentrics.h"
+#include "faults/pixels_in_order.h"
 #include "faults/variants.h"
 #include "pipeline/geometry.h"
-#include "tests/kernels/barycentric.h"
-#include "tests/pixels_in_order.h"
 #include "transforms/projection.h"
 
 namespace plumbline::faults {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "faults/lists.h"
+#include "faults/pixel_barycentrics.h"
+#include "faults/pixels_in_order.h"
 #include "faults/variants.h"
-#include "tests/kernels/barycentric.h"
-#include "tests/pixels_in_order.h"
 
 namespace plumbline::faults {
 
