@@ -116,6 +116,28 @@ void positions_by_distance(const Scene& scene, const Draw& draw, const Mesh& mes
   }
 }
 
+// Light per fragment under a scene that says something else. (What fragment_light() reads of a mesh is put back.)
+template <auto change>
+pipeline::Shaded shaded_in_other_light(const pipeline::Surface& surface, bool front,
+                                       const pipeline::SurfaceAttributes<float>& a) {
+  if (!surface.light) return {pipeline::shade<float>(surface, front, a)};
+  const Scene& scene = *surface.scene;
+  Scene wrong;
+  wrong.dialect = scene.dialect;
+  wrong.camera = scene.camera;
+  wrong.projection = scene.projection;
+  wrong.light_model = scene.light_model;
+  wrong.lights = scene.lights;
+  wrong.meshes.resize(1);
+  Draw draw = *surface.draw;
+  draw.mesh = 0;
+  change(wrong, draw);
+  pipeline::Surface other = surface;
+  other.light = pipeline::fragment_light(wrong, draw, pipeline::light_sources(wrong));
+  other.light->by_color = surface.light->by_color;
+  return {pipeline::shade<float>(other, front, a)};
+}
+
 // The sum of colours left out.
 pipeline::Shaded no_color_sum(const pipeline::Surface& surface, bool front,
                               const pipeline::SurfaceAttributes<float>& a) {
@@ -143,6 +165,11 @@ constexpr Fault of(std::string_view name, std::string_view what, std::string_vie
   return {name, what, Stage::light, put<&Stages::light, lit_otherwise<change>>, report};
 }
 
+template <auto change>
+constexpr Fault per_fragment(std::string_view name, std::string_view what) {
+  return {name, what, Stage::shade, put<&Stages::shade, shaded_in_other_light<change>>};
+}
+
 constexpr std::array kFaults = {
     of<kWorldSpace>("light.world_space", "lights are not brought to eye space"),
     of<kNoAttenuation>("light.no_attenuation", "lights do not fade with their distance"),
@@ -161,6 +188,15 @@ constexpr std::array kFaults = {
           put<&Stages::light, back_color_is_the_fronts>},
     Fault{"light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated", Stage::light,
           put<&Stages::light, positions_by_distance>},
+    per_fragment<kWorldSpace>("shade.world_space", "light per fragment: lights are not brought to eye space"),
+    per_fragment<kNoAttenuation>("shade.no_attenuation", "light per fragment: lights do not fade with their distance"),
+    per_fragment<kConesIgnored>("shade.cones_ignored", "light per fragment: spot lights shine to all sides"),
+    per_fragment<kReflection>("shade.reflection_for_half_vector",
+                              "light per fragment: highlights are by the mirrored ray, not the half vector"),
+    per_fragment<kFarViewer>("shade.far_viewer",
+                             "light per fragment: highlights are seen from infinitely far away, not from the eye"),
+    per_fragment<kAmbientPerLight>("shade.ambient_per_light",
+                                   "light per fragment: the ambient light is added once more for each light"),
     Fault{"shade.no_color_sum", "the separate specular colour is not added", Stage::shade,
           put<&Stages::shade, no_color_sum>},
     Fault{"shade.not_renormalised", "interpolated normals are not brought back to unit length", Stage::shade,

@@ -26,7 +26,7 @@ double corner_roundings(const Case& c) { return c.foreign ? 4 : 0; }
 
 // Roundings of a stranger's clip positions that no plane cuts, u of the largest coordinate: of a view volume [0,w] in z,
 // z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again (largest seen: 1.2 u).
-double copied_vertices(const Case& c) { return c.foreign ? 4 : 0; }
+constexpr double kCopiedVertices = 4;
 
 // Roundings of a stranger's colours that no step of shading changes, u of the colour: c * 255 and c / 255 are one each,
 // as in GAMES101's framework, and so are a product by a white light and its sum (largest seen: 1 u).
@@ -36,7 +36,7 @@ double copied_colors(const Case& c) { return c.foreign ? 4 : 0; }
 Measurement compare_clipped(const Case& c, const Records<double>& mine, const Records<double>& theirs, double factor,
                             bool flat_applies) {
   if (!c.foreign) return compare_polygons(c.scene, mine, theirs, factor, flat_applies);
-  return compare_polygons(c.scene, cut_at_sides(mine), theirs, factor, flat_applies, copied_vertices(c));
+  return compare_polygons(c.scene, cut_at_sides(mine), theirs, factor, flat_applies, kCopiedVertices);
 }
 
 // Compares a varying in the stage's comparator, in place of the colour.

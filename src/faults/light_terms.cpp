@@ -1,0 +1,152 @@
+// Mistakes in a term of the light equation, at the vertices (stage 2) and per fragment (stage 9).
+#include <array>
+#include <vector>
+
+#include "faults/lists.h"
+#include "faults/variants.h"
+#include "kernels/shade.h"
+#include "pipeline/geometry.h"
+
+namespace plumbline::faults {
+
+namespace {
+
+using pipeline::EyeLight;
+using pipeline::Illumination;
+using pipeline::Reflectance;
+
+/// A point that one light shines on.
+struct LitPoint {
+  EyeLight light;
+  Vec3<float> p_eye, n_eye;
+  float share = 1;  ///< of the light's intensity
+};
+
+/// The light equation as a sum of lights, each of whose points is changed.
+template <auto change>
+Color<float> lit_light_by_light(const Illumination& illumination, const Reflectance<float>& reflectance,
+                                const Vec3<float>& p_eye, const Vec3<float>& n_eye) {
+  Color<float> sum = pipeline::lit<float, float>({illumination.model, {}}, reflectance, p_eye, n_eye);
+  for (std::size_t i = 0; i < illumination.lights.size(); ++i) {
+    LitPoint point{illumination.lights[i], p_eye, n_eye};
+    change(point, illumination.model);
+    Illumination one{illumination.model, {}};
+    one.lights.push_back(point.light);
+    Reflectance<float> of_one = reflectance;
+    of_one.base = {0, 0, 0};
+    const Reflectance<float>::Answer& answer = reflectance.answers[i];
+    of_one.answers[0] = {point.share * answer.ambient, point.share * answer.diffuse, point.share * answer.specular};
+    const Color<float> added = pipeline::lit<float, float>(one, of_one, point.p_eye, point.n_eye);
+    sum = {sum.r + added.r, sum.g + added.g, sum.b + added.b, sum.a};
+  }
+  return {pipeline::clamp01(sum.r), pipeline::clamp01(sum.g), pipeline::clamp01(sum.b), sum.a};
+}
+
+template <auto change>
+void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart part, pipeline::Lights lights,
+                std::span<const Vertex<float>> vertices, std::size_t attribute, std::span<pipeline::Attributes> out) {
+  const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
+  const Illumination in_eye_space = pipeline::illumination(scene, lights);
+  const pipeline::ColoredMaterial material = pipeline::colored_material(scene, draw, part);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Color<float> color = by_color ? Color<float>(mesh.colors[i]) : Color<float>{};
+    const Reflectance<float> of_vertex =
+        pipeline::reflectance<float>(scene, by_color ? material : pipeline::ColoredMaterial{material.own}, color);
+    const Vec3<float>& n = vertices[i].n_eye;
+    const Color<float> lit = lit_light_by_light<change>(in_eye_space, of_vertex, vertices[i].p_eye, part.back ? -n : n);
+    out[i][attribute] = {lit.r, lit.g, lit.b, part.secondary ? 0 : lit.a};
+  }
+}
+
+template <auto change>
+void at_vertices(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
+                 std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
+  pipeline::light(scene, draw, mesh, lights, vertices, out);
+  if (!is_lit_per_vertex(draw)) return;
+  const std::span<pipeline::Attributes> added = std::span(out).last(vertices.size());
+  light_part<change>(scene, draw, mesh, {}, lights, vertices, 0, added);
+  for (const Varying v : kAllVaryings) {
+    if (!is_lit(v) || !carries(scene, draw, v)) continue;
+    light_part<change>(scene, draw, mesh, {is_back(v), is_secondary(v)}, lights, vertices, 1 + index_of(v), added);
+  }
+}
+
+template <auto change>
+Color<float> lit_fragment(const pipeline::FragmentLight& light, LitPart part,
+                          const pipeline::SurfaceAttributes<float>& a) {
+  const Vec3<float> p_eye(a[Varying::position]), normal(a[Varying::normal]);
+  const float size = pipeline::length(normal);
+  const Reflectance<float> of =
+      light.by_color ? pipeline::reflectance<float>(*light.scene, light.material[part.back][part.secondary], a.color)
+                     : light.reflectance[part.back][part.secondary];
+  return lit_light_by_light<change>(light.illumination, of, p_eye, normal / (part.back ? -size : size));
+}
+
+// The surface as if its fragments had been lit before.
+template <auto change>
+pipeline::Shaded at_fragments(const pipeline::Surface& surface, bool front,
+                              const pipeline::SurfaceAttributes<float>& a) {
+  if (!surface.light) return {pipeline::shade<float>(surface, front, a)};
+  const bool back = !front && surface.scene->light_model.sides == LightModel::Sides::two;
+  pipeline::SurfaceAttributes<float> lit = a;
+  lit.color = lit_fragment<change>(*surface.light, {back, false}, a);
+  lit[Varying::secondary] = lit_fragment<change>(*surface.light, {back, true}, a);
+  pipeline::Surface unlit = surface;
+  unlit.light.reset();
+  return {pipeline::shade<float>(unlit, front, lit)};
+}
+
+Vec3<float> towards(const LitPoint& at) { return at.light.directional ? at.light.vector : at.light.vector - at.p_eye; }
+
+constexpr auto kAbsoluteCosine = [](LitPoint& at, const LightModel&) {
+  if (pipeline::dot(at.n_eye, towards(at)) < 0) at.n_eye = -at.n_eye;
+};
+
+// Of a point light. How far it reaches, and its cone, are as they are.
+constexpr auto kLongVector = [](LitPoint& at, const LightModel&) {
+  if (at.light.directional) return;
+  const Vec3<float> vector = towards(at);
+  at.share = pipeline::reach<float>(at.light, vector, pipeline::unit(vector));
+  at.light.vector = vector;
+  at.light.directional = true;
+  at.light.attenuates = at.light.has_cone = false;
+  at.light.half = pipeline::unit(at.light.vector + Vec3<float>{0, 0, 1});
+};
+
+// The point mirrored at the eye, with its light moved along: the same direction to the light, the opposite to the eye.
+constexpr auto kFromTheEye = [](LitPoint& at, const LightModel& model) {
+  if (!model.local_viewer) {
+    if (at.light.directional) at.light.half = pipeline::unit(at.light.vector - Vec3<float>{0, 0, 1});
+    return;
+  }
+  if (!at.light.directional) at.light.vector = at.light.vector - at.p_eye - at.p_eye;
+  at.p_eye = -at.p_eye;
+};
+
+template <auto change>
+constexpr Fault term_at_vertices(std::string_view name, std::string_view what) {
+  return {name, what, Stage::light, put<&Stages::light, at_vertices<change>>};
+}
+template <auto change>
+constexpr Fault term_per_fragment(std::string_view name, std::string_view what) {
+  return {name, what, Stage::shade, put<&Stages::shade, at_fragments<change>>};
+}
+
+constexpr std::array kTerms = {
+    term_at_vertices<kAbsoluteCosine>("light.n_l_absolute", "|N.L| for max(N.L, 0): surfaces are lit from behind"),
+    term_at_vertices<kLongVector>("light.l_not_normalised",
+                                  "the vector to a point light is not brought to unit length"),
+    term_at_vertices<kFromTheEye>("light.view_reversed", "highlights are by the vector from the eye, not to it"),
+    term_per_fragment<kAbsoluteCosine>("shade.n_l_absolute",
+                                       "light per fragment: |N.L| for max(N.L, 0): surfaces are lit from behind"),
+    term_per_fragment<kLongVector>("shade.l_not_normalised",
+                                   "light per fragment: the vector to a point light is not brought to unit length"),
+    term_per_fragment<kFromTheEye>("shade.view_reversed",
+                                   "light per fragment: highlights are by the vector from the eye, not to it"),
+};
+
+}  // namespace
+
+std::span<const Fault> of_light_terms() { return kTerms; }
+
+}  // namespace plumbline::faults
