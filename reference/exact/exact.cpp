@@ -206,9 +206,9 @@ Capture Exact::capture(const Scene& scene, const Request& request) {
   for (const Varying v : kAllVaryings) window.varyings[v].triangles = records.varyings[v].triangles;
 
   const Selection selection(scene, request);
-  selection.prune(records);
+  selection.prune(out);
   const std::size_t fragments = selected_fragments(scene, selection, window.triangles);
-  require_budget(scene, plane_bytes(scene) + geometry_bytes(records) + fragments * selection.bytes_per_fragment(),
+  require_budget(scene, plane_bytes(scene) + geometry_bytes(out) + fragments * selection.bytes_per_fragment(),
                  request.memory_budget);
   if (request.legal && !draws(scene, Topology::lines) && !draws(scene, Topology::points))
     out.legal = math::legal_by_boxes(scene, request);

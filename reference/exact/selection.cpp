@@ -1,6 +1,9 @@
 #include "reference/exact/selection.h"
 
 #include <algorithm>
+#include <type_traits>
+
+#include "capture/capture_columns.h"
 
 namespace plumbline::exact {
 
@@ -53,23 +56,21 @@ void Selection::reserve(std::size_t fragments, Records<double>& out) const {
   if (stages.has(Stage::visibility)) out.drawn.reserve(fragments);
 }
 
-void Selection::prune(Records<double>& records) const {
-  const StageSet& stages = request_.records;
-  if (!stages.has(Stage::matrices)) {
-    records.matrices = {};
-    records.lights = {};
+namespace {
+
+struct KeepOnly {
+  StageSet stages;
+  void group(Handed group, const auto&, auto& records) const {
+    if (!stages.has(group.stage)) std::remove_cvref_t<decltype(records)>().swap(records);  // gives its memory back
   }
-  if (!stages.has(Stage::vertex)) records.vertices = {};
-  if (!stages.has(Stage::light)) records.lit = {};
-  if (!stages.has(Stage::clip)) records.polygons = {};
-  if (!stages.has(Stage::window)) records.triangles = {};
-  for (const Varying v : kAllVaryings) {
-    VaryingColumns<double>& columns = records.varyings[v];
-    if (!stages.has(Stage::light)) columns.vertices = {};
-    if (!stages.has(Stage::clip)) columns.clipped = {};
-    if (!stages.has(Stage::window)) columns.triangles = {};
-  }
-  if (!request_.primitives.empty()) prune_primitives(records);
+  void plane(Handed, auto&) const {}
+};
+
+}  // namespace
+
+void Selection::prune(Capture& geometry) const {
+  visit_capture(KeepOnly{request_.records}, geometry);
+  if (!request_.primitives.empty()) prune_primitives(geometry.records);
 }
 
 void Selection::prune_primitives(Records<double>& records) const {
@@ -104,16 +105,23 @@ void Selection::prune_primitives(Records<double>& records) const {
   }
 }
 
-std::size_t geometry_bytes(const Records<double>& r) {
-  std::size_t fours = 0;
-  for (const Varying v : kAllVaryings) {
-    const VaryingColumns<double>& columns = r.varyings[v];
-    fours += columns.vertices.size() + columns.clipped.size() + 3 * columns.triangles.size();
+namespace {
+
+struct GeometryBytes {
+  std::size_t bytes = 0;
+  template <class Record>
+  void group(Handed group, const auto&, const std::vector<Record>& records) {
+    if (kGeometryStages.has(group.stage)) bytes += records.size() * sizeof(Record);
   }
-  return fours * sizeof(glm::dvec4) + r.matrices.size() * sizeof(r.matrices[0]) +
-         r.vertices.size() * sizeof(r.vertices[0]) + r.lit.size() * sizeof(r.lit[0]) +
-         r.polygons.vertices.size() * sizeof(r.polygons.vertices[0]) +
-         r.polygons.polygons.size() * sizeof(r.polygons.polygons[0]) + r.triangles.size() * sizeof(r.triangles[0]);
+  void plane(Handed, const auto&) const {}
+};
+
+}  // namespace
+
+std::size_t geometry_bytes(const Capture& capture) {
+  GeometryBytes out;
+  visit_capture(out, capture);
+  return out.bytes;
 }
 
 }  // namespace plumbline::exact

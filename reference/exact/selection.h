@@ -35,7 +35,7 @@ class Selection {
   void reserve(std::size_t fragments, Records<double>& out) const;
 
   /// Removes stages and primitives that are not requested from the records of stages 0 to 4.
-  void prune(Records<double>& records) const;
+  void prune(Capture& geometry) const;
 
  private:
   void prune_primitives(Records<double>& records) const;
@@ -46,7 +46,7 @@ class Selection {
   std::vector<Varying> varyings_;  // that fragments carry
 };
 
-/// Memory of the records of stages 0 to 4, without the (at most 8) lights [bytes].
-std::size_t geometry_bytes(const Records<double>& records);
+/// Memory of the records of stages 0 to 4 [bytes].
+std::size_t geometry_bytes(const Capture& capture);
 
 }  // namespace plumbline::exact

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "capture/by_conventions.h"
+#include "capture/capture_columns.h"
 #include "scene/draw_index.h"
 
 namespace plumbline {
@@ -171,29 +172,35 @@ constexpr double kCodeRoundings = 0x1p-50;
 
 // ---- order
 
-void sort_triangles(Records<double>& r) {
-  const auto sorted = order_by(r.triangles, [&](std::size_t i) { return r.triangles[i].primitive; });
-  if (!sorted) return;
-  const Order& order = *sorted;
-  std::vector<std::uint32_t> now(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) now[order[i]] = static_cast<std::uint32_t>(i);
-  reorder(r.triangles, order);
-  for (const Varying v : kAllVaryings) reorder(r.varyings[v].triangles, order);
-  for (Covered& c : r.covered) c.triangle = c.triangle < now.size() ? now[c.triangle] : c.triangle;
+// Puts all groups of records that belong to triangles, or to fragments, in the order; but for coverage, by which they
+// are sorted.
+struct Reordering {
+  Per of;
+  const Order& order;
+  void group(Handed group, const auto&, auto& records) const {
+    if (per(group.stage) == of && group.stage != Stage::coverage) reorder(records, order);
+  }
+  void plane(Handed, auto&) const {}
+};
+
+void sort_triangles(Capture& c) {
+  Records<double>& r = c.records;
+  const auto order = order_by(r.triangles, [&](std::size_t i) { return r.triangles[i].primitive; });
+  if (!order) return;
+  std::vector<std::uint32_t> now(order->size());
+  for (std::size_t i = 0; i < order->size(); ++i) now[(*order)[i]] = static_cast<std::uint32_t>(i);
+  visit_capture(Reordering{Per::triangle, *order}, c);
+  for (Covered& covered : r.covered)
+    covered.triangle = covered.triangle < now.size() ? now[covered.triangle] : covered.triangle;
 }
 
-void sort_fragments(Records<double>& r) {
-  const auto key = [&](std::size_t i) {
-    const Covered& c = r.covered[i];
-    return std::tuple(c.triangle, c.y, c.x);
-  };
-  const auto sorted = order_by(r.covered, key);
-  if (!sorted) return;
-  const Order& order = *sorted;
-  reorder(r.depth, order), reorder(r.attributes, order), reorder(r.texels, order);
-  reorder(r.shaded, order), reorder(r.drawn, order);
-  for (const Varying v : kAllVaryings) reorder(r.varyings[v].fragments, order);
-  reorder(r.covered, order);
+void sort_fragments(Capture& c) {
+  std::vector<Covered>& covered = c.records.covered;
+  const auto order =
+      order_by(covered, [&](std::size_t i) { return std::tuple(covered[i].triangle, covered[i].y, covered[i].x); });
+  if (!order) return;
+  visit_capture(Reordering{Per::fragment, *order}, c);
+  reorder(covered, *order);
 }
 
 }  // namespace
@@ -208,8 +215,8 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
     for (Texel<double>& texel : r.texels) texel.lod = std::numeric_limits<double>::quiet_NaN();
   }
   derive_window(draws, conventions, capture);
-  sort_triangles(r);
-  sort_fragments(r);
+  sort_triangles(capture);
+  sort_fragments(capture);
   capture.derived.clear();
   const DepthFormat format = depth_format_of(scene.frame, conventions);
   const double codes = depth_scale(format);

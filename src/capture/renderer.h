@@ -16,26 +16,6 @@
 
 namespace plumbline {
 
-/// A set of stages.
-class StageSet {
- public:
-  constexpr StageSet() = default;
-  constexpr StageSet(std::initializer_list<Stage> stages) {
-    for (Stage s : stages) add(s);
-  }
-  static constexpr StageSet all() {
-    StageSet set;
-    set.bits_ = (1u << kStageNames.size()) - 1;
-    return set;
-  }
-  constexpr void add(Stage s) { bits_ |= 1u << static_cast<unsigned>(s); }
-  constexpr bool has(Stage s) const { return (bits_ >> static_cast<unsigned>(s) & 1u) != 0; }
-  constexpr bool any() const { return bits_ != 0; }
-
- private:
-  std::uint32_t bits_ = 0;
-};
-
 /// Stages of a scene from `first` to `last`, in order: without texture where no draw is textured.
 std::vector<Stage> stages_of(const Scene& scene, Stage first = Stage::matrices, Stage last = Stage::merge);
 

@@ -60,7 +60,7 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
     if (!is_back(v) && (stage == Stage::shade || of_texture)) fits &= columns.fragments.size() == fragments;
     require(fits, fmt::format("varyings.{}", name_of(v)));
   }
-  if (stage <= Stage::window) return;
+  if (kGeometryStages.has(stage)) return;
   const auto has_width = [](const auto& t) { return t.width >= 1 && t.width <= 64; };
   require(fit(
               scene, r.triangles, [](const auto& t) { return t.corners; }, 1, 3) &&

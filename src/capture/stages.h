@@ -8,7 +8,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string_view>
 #include <vector>
 
@@ -33,16 +35,78 @@ enum class Stage {
   merge,
   resolve
 };
-inline constexpr std::array<std::string_view, 13> kStageNames = {
-    "matrices",   "vertex",  "light", "clip",       "window", "coverage", "depth",
-    "attributes", "texture", "shade", "visibility", "merge",  "resolve"};
+/// A set of stages.
+class StageSet {
+ public:
+  constexpr StageSet() = default;
+  constexpr StageSet(std::initializer_list<Stage> stages) {
+    for (Stage s : stages) add(s);
+  }
+  static constexpr StageSet all();
+  constexpr void add(Stage s) { bits_ |= 1u << static_cast<unsigned>(s); }
+  constexpr bool has(Stage s) const { return (bits_ >> static_cast<unsigned>(s) & 1u) != 0; }
+  constexpr bool any() const { return bits_ != 0; }
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+/// What a record of a stage belongs to; of `pixel`, stages hand on planes alone.
+enum class Per { draw, vertex, polygon, triangle, fragment, pixel };
+
+struct StageRow {
+  std::string_view name;
+  Per per;
+  StageSet inputs;  ///< stages whose records it reads
+};
+/// The table of the stages, in order.
+inline constexpr std::array<StageRow, 13> kStages = [] {
+  using enum Stage;
+  return std::array<StageRow, 13>{{{"matrices", Per::draw, {}},
+                                   {"vertex", Per::vertex, {matrices}},
+                                   {"light", Per::vertex, {matrices, vertex}},
+                                   {"clip", Per::polygon, {vertex, light}},
+                                   {"window", Per::triangle, {matrices, clip}},
+                                   {"coverage", Per::fragment, {window}},
+                                   {"depth", Per::fragment, {window, coverage}},
+                                   {"attributes", Per::fragment, {window, coverage}},
+                                   {"texture", Per::fragment, {window, coverage, attributes}},
+                                   {"shade", Per::fragment, {matrices, window, coverage, attributes, texture}},
+                                   {"visibility", Per::fragment, {window, coverage, depth, shade}},
+                                   {"merge", Per::pixel, {window, coverage, depth, shade}},
+                                   {"resolve", Per::pixel, {merge}}}};
+}();
+constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
+constexpr std::string_view name_of(Stage stage) { return row_of(stage).name; }
+constexpr Per per(Stage stage) { return row_of(stage).per; }
+constexpr StageSet inputs_of(Stage stage) { return row_of(stage).inputs; }
+
+inline constexpr std::array<std::string_view, kStages.size()> kStageNames = [] {
+  std::array<std::string_view, kStages.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kStages[i].name;
+  return names;
+}();
 /// Every stage, in order.
-inline constexpr std::array<Stage, kStageNames.size()> kAllStages = [] {
-  std::array<Stage, kStageNames.size()> all{};
+inline constexpr std::array<Stage, kStages.size()> kAllStages = [] {
+  std::array<Stage, kStages.size()> all{};
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Stage>(i);
   return all;
 }();
-constexpr std::string_view name_of(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
+constexpr StageSet StageSet::all() {
+  StageSet set;
+  for (const Stage stage : kAllStages) set.add(stage);
+  return set;
+}
+constexpr StageSet stages_where(auto holds) {
+  StageSet set;
+  for (const Stage stage : kAllStages) {
+    if (holds(row_of(stage))) set.add(stage);
+  }
+  return set;
+}
+/// Stages before there are fragments, and those whose records are fragments'.
+inline constexpr StageSet kGeometryStages = stages_where([](const StageRow& row) { return row.per < Per::fragment; });
+inline constexpr StageSet kFragmentStages = stages_where([](const StageRow& row) { return row.per == Per::fragment; });
 
 template <class T>
 using Vec2 = glm::vec<2, T>;

@@ -29,7 +29,7 @@ class StageWriter {
 
   template <class Record>
   void group(Handed group, const auto& columns, const std::vector<Record>& records) {
-    if (group.stage > Stage::window || records.empty()) return;
+    if (!kGeometryStages.has(group.stage) || records.empty()) return;
     columns.each([&]<class C>(const C& column) {
       const std::string name = fmt::format("{}.{}", group.name, column.name);
       const std::vector<char> bytes = packed(records, column);

@@ -33,7 +33,7 @@ class OneStage {
   }
 
   void run(Capture& out) {
-    if (stage_ <= Stage::window) {
+    if (kGeometryStages.has(stage_)) {
       run_geometry();
     } else if (stage_ == Stage::coverage) {
       run_coverage();

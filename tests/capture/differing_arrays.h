@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/capture.h"
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "capture/same_bits.h"
 
 namespace plumbline::test {

@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "capture/capture_columns.h"
 #include "capture/conventions.h"
-#include "capture/files/capture_columns.h"
 
 namespace plumbline {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "matrix/matrix.h"
 #include "matrix/parallel.h"
 #include "pipeline/render.h"

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/capture/differing_arrays.h"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_path.h"
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 
 namespace plumbline {
 

@@ -11,8 +11,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "capture/capture_columns.h"
 #include "capture/files/array_folder.h"
-#include "capture/files/capture_columns.h"
 #include "scene/json/json_file.h"
 
 namespace plumbline {

@@ -20,8 +20,8 @@
 #include "base/program.h"
 #include "base/temporary_path.h"
 #include "capture/by_conventions.h"
+#include "capture/capture_columns.h"
 #include "capture/complete_records.h"
-#include "capture/files/capture_columns.h"
 #include "capture/files/capture_folder.h"
 
 namespace plumbline {

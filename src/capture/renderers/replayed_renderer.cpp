@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "capture/capture_columns.h"
 #include "capture/complete_records.h"
 #include "capture/contradictions.h"
 #include "capture/legal.h"
@@ -16,35 +19,46 @@ namespace plumbline {
 namespace {
 
 // Whether the capture holds the group's arrays, be they of no record: such a stage is judged.
-bool holds(const Capture& c, const char* group, const auto& records) {
-  return !records.empty() || c.without_records.contains(group);
+bool holds(const Capture& c, std::string_view group, const auto& records) {
+  return !records.empty() || c.without_records.contains(std::string(group));
 }
 
 // Parts of a stage that a capture holds.
 struct Held {
   bool records, planes;
 };
-Held held(const Capture& c, const Scene& scene, Stage stage) {
-  const Records<double>& r = c.records;
-  const Planes& p = c.planes;
-  switch (stage) {
-    case Stage::matrices: return {!r.matrices.empty(), false};
-    case Stage::vertex: return {!r.vertices.empty(), false};
-    case Stage::light: return {!r.lit.empty(), false};
-    case Stage::clip: return {holds(c, "clip.polygon", r.polygons.polygons), false};
-    case Stage::window: return {holds(c, "window", r.triangles), false};
-    case Stage::coverage: return {holds(c, "coverage", r.covered) && holds(c, "window", r.triangles), !p.count.empty()};
-    case Stage::depth: return {holds(c, "depth", r.depth), !p.depth.empty()};
-    case Stage::attributes: return {holds(c, "attributes", r.attributes), !p.shaded.empty()};
-    case Stage::texture: return {holds(c, "texture", r.texels), !p.texel.empty() && !p.id.empty()};
-    case Stage::shade: return {holds(c, "shade", r.shaded), !p.shaded.empty()};
-    case Stage::visibility:
-      return {holds(c, "visibility", r.drawn),
-              !p.id.empty() && p.stencil.empty() == (scene.frame.stencil == StencilFormat::none)};
-    case Stage::merge: return {false, !p.color.empty()};
-    case Stage::resolve: break;
+
+// Whether the capture holds the stage's records: every group, but for varyings and lights, which not all scenes have.
+struct HeldRecords {
+  Stage stage;
+  const Capture& capture;
+  bool any = false, all = true;
+  void group(Handed group, const auto&, const auto& records) {
+    if (group.stage != stage || group.name == "matrices.light" || group.name.starts_with("varyings.")) return;
+    any = true;
+    all &= holds(capture, group.name, records);
   }
-  return {false, false};
+  void plane(Handed, const auto&) const {}
+};
+
+bool holds_planes(const Planes& p, const Scene& scene, Stage stage) {
+  switch (stage) {
+    case Stage::coverage: return !p.count.empty();
+    case Stage::depth: return !p.depth.empty();
+    case Stage::attributes:
+    case Stage::shade: return !p.shaded.empty();
+    case Stage::texture: return !p.texel.empty() && !p.id.empty();
+    case Stage::visibility: return !p.id.empty() && p.stencil.empty() == (scene.frame.stencil == StencilFormat::none);
+    case Stage::merge: return !p.color.empty();
+    default: return false;
+  }
+}
+
+Held held(const Capture& c, const Scene& scene, Stage stage) {
+  HeldRecords held{stage, c};
+  visit_capture(held, c);
+  const bool has_triangles = stage != Stage::coverage || holds(c, "window", c.records.triangles);
+  return {held.any && held.all && has_triangles, holds_planes(c.planes, scene, stage)};
 }
 
 // Planes of coverage and visibility that records of fragments come to, where the capture has none.

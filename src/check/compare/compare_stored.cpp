@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 
 namespace plumbline::check {
 

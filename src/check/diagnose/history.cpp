@@ -298,8 +298,7 @@ std::vector<PixelHistory> histories(const Scene& given, const Reference& r, cons
   const auto ask = [&] {
     const RendererInfo info = r.renderer->info();
     Request request;
-    request.records = {Stage::coverage, Stage::depth, Stage::attributes,
-                       Stage::texture,  Stage::shade, Stage::visibility};
+    request.records = kFragmentStages;
     if (info[Stage::coverage].runs) request.records.add(Stage::window);  // it has such triangles
     request.pixels = pixels;
     request.legal = info.legal;

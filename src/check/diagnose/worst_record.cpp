@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_access.hpp>
 
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "check/bounds/units.h"
 #include "check/diagnose/coverage_differences.h"
 #include "check/judge/stage_inputs.h"
@@ -199,8 +199,9 @@ class RecordPrinter {
         std::ranges::find_if(covered, [&](const Covered& c) { return c.triangle == number && c.x == x && c.y == y; });
     if (found == covered.end()) return;
     const auto i = static_cast<std::size_t>(found - covered.begin());
-    for (const Stage input : {Stage::depth, Stage::attributes, Stage::texture, Stage::shade}) {
-      if (inputs_of(stage_).has(input)) came_in(input, i, out);
+    for (const Stage input : kAllStages) {
+      if (per(input) == Per::fragment && input != Stage::coverage && inputs_of(stage_).has(input))
+        came_in(input, i, out);
     }
     beside(i, i, out);
   }

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "scene/antialias.h"
 
 namespace plumbline::check {
@@ -107,7 +107,7 @@ Capture all_that_fits(const Scene& scene, Renderer& renderer) {
   try {
     return renderer.capture(scene, request);
   } catch (const OverBudget&) {
-    request.records = {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
+    request.records = kGeometryStages;
     return renderer.capture(scene, request);
   }
 }

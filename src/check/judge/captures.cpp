@@ -9,11 +9,9 @@ namespace plumbline::check {
 
 namespace {
 
-constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
-
 Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal, const Conventions& conventions) {
   const RendererInfo info = renderer.info();
-  Request request{.records = kGeometry, .legal = legal && info.legal, .conventions = conventions};
+  Request request{.records = kGeometryStages, .legal = legal && info.legal, .conventions = conventions};
   if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // which line covers what
   if (is_referee(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
   try {
@@ -34,12 +32,12 @@ bool more_than(std::uint64_t most_fragments, const Capture& capture) {
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments) {
   try {
     if (most_fragments != ~std::uint64_t{0}) {
-      Capture counted = candidate.capture(scene, {.records = kGeometry});
+      Capture counted = candidate.capture(scene, {.records = kGeometryStages});
       if (more_than(most_fragments, counted)) return counted;
     }
     return candidate.capture(scene, {.records = StageSet::all()});
   } catch (const OverBudget&) {
-    return candidate.capture(scene, {.records = kGeometry});
+    return candidate.capture(scene, {.records = kGeometryStages});
   }
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "check/bounds/units.h"
 
 namespace plumbline::check {

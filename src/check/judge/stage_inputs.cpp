@@ -4,26 +4,6 @@
 
 namespace plumbline::check {
 
-StageSet inputs_of(Stage stage) {
-  using enum Stage;
-  switch (stage) {
-    case matrices: return {};
-    case vertex: return {matrices};
-    case light: return {matrices, vertex};
-    case clip: return {vertex, light};
-    case window: return {matrices, clip};
-    case coverage: return {window};
-    case depth:
-    case attributes: return {window, coverage};
-    case texture: return {window, coverage, attributes};
-    case shade: return {matrices, window, coverage, attributes, texture};
-    case visibility: return {window, coverage, depth, shade};
-    case merge: return {window, coverage, depth, shade};
-    case resolve: return {merge};
-  }
-  return {};
-}
-
 bool has_plane(const Planes& planes, Stage stage) {
   switch (stage) {
     case Stage::coverage: return !planes.count.empty();
@@ -59,7 +39,9 @@ std::string lacking_beside(const Scene& scene, const Planes& planes, const Rende
   StageSet inputs = inputs_of(stage);
   if (stage > Stage::coverage) {
     if (planes.id.empty()) return "visibility: it shows no winners";
-    for (const Stage each : {Stage::matrices, Stage::vertex, Stage::light, Stage::clip}) inputs.add(each);
+    for (const Stage each : kAllStages) {
+      if (kGeometryStages.has(each)) inputs.add(each);
+    }
   }
   return lacking_records(scene, candidate, inputs);
 }

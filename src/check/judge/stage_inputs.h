@@ -15,9 +15,6 @@ namespace plumbline::check {
 /// The note of stage attributes, of a renderer that hands out no colour before shade.
 inline constexpr std::string_view kOnlyShaded = "it hands out the final colour alone; see shade";
 
-/// Stages whose records are the stage's input or enter its tolerance.
-StageSet inputs_of(Stage stage);
-
 /// Whether the count plane has fragments and the records none: beyond the budget, or a capture of planes alone.
 inline bool lacks_fragment_records(const Capture& c) {
   const auto& count = c.planes.count.values();

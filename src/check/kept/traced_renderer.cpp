@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "capture/files/conventions_file.h"
 #include "scene/antialias.h"
 

@@ -79,7 +79,7 @@ bool was_compared(const Comparison& row);
 inline bool votes(const Comparison& row) { return row.judge.kind < Kind::golden; }
 /// Whether the judge holds the stage to an oracle's legal answers, not to one renderer's numbers.
 inline bool judges_legality(const JudgeId& judge, Stage stage) {
-  return judge.kind == Kind::legal || (judge.kind == Kind::from_scene && stage >= Stage::coverage);
+  return judge.kind == Kind::legal || (judge.kind == Kind::from_scene && !kGeometryStages.has(stage));
 }
 /// Whether the row judges its stage by the records before it alone: an earlier stage's error is not seen in it.
 inline bool judges_alone(const Comparison& row) {

@@ -230,7 +230,7 @@ std::string command_of_submission(const std::string& command, const std::filesys
 ExportedStages exported_stages(const Scene& scene) {
   Request request;
   request.planes = WantedPlanes::none;
-  request.records = {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
+  request.records = kGeometryStages;
   Request of_matrices = request;
   of_matrices.records = {Stage::matrices};
   return {pipeline::make_pipeline()->capture(scene, request),

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "tests/check/fixtures.h"
 
 namespace plumbline::check {

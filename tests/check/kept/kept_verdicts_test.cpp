@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/temporary_path.h"
-#include "capture/files/capture_columns.h"
+#include "capture/capture_columns.h"
 #include "check/kept/judge_or_recall.h"
 #include "check/kept/traced_renderer.h"
 #include "check/verdict/verdict_bytes.h"
