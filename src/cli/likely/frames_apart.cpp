@@ -19,21 +19,21 @@ constexpr float kUnseen = std::numeric_limits<float>::infinity();
 constexpr std::array<Eye, kLooks> kEyes = {
     {{1.5f, 1.5, 0x1p-20, true}, {1.5f, 1.5, 0x1p-20}, {0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}}};
 
-// By pixel, 1 where the frames differ.
-std::vector<std::uint8_t> apart_at(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other,
-                                   const Eye& eye) {
+// Whether the frames differ in a pixel.
+bool is_apart(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i,
+              const Eye& eye) {
+  if (colors_apart(other.color.values()[i], given.color.values()[i], eye.codes, eye.by_alpha)) return true;
+  if (given.depth.empty() || given.depth.size() != other.depth.size()) return false;
+  const double z = other.depth.values()[i];
+  const double most = std::max(eye.steps * depth_step(format, z), eye.float_depth);
+  return !(std::abs(given.depth.values()[i] - z) <= most);
+}
+
+// Whether a pixel is the same number by number, which most are. NaN is not.
+bool is_same(const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i) {
   const bool by_depth = !given.depth.empty() && given.depth.size() == other.depth.size();
-  std::vector<std::uint8_t> out(given.color.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    bool apart = colors_apart(other.color.values()[i], given.color.values()[i], eye.codes, eye.by_alpha);
-    if (by_depth && !apart) {
-      const double z = other.depth.values()[i];
-      const double most = std::max(eye.steps * depth_step(format, z), eye.float_depth);
-      apart = !(std::abs(given.depth.values()[i] - z) <= most);
-    }
-    out[i] = apart ? 1 : 0;
-  }
-  return out;
+  return given.color.values()[i] == other.color.values()[i] &&
+         (!by_depth || given.depth.values()[i] == other.depth.values()[i]);
 }
 
 }  // namespace
@@ -51,16 +51,20 @@ FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const Colo
     std::vector<std::uint8_t>& passed_over = passed_over_[look];
     passed_over.resize(given.color.size());
     if (given.is_legal.size() != given.color.size()) continue;
-    passed_over = apart_at(format, given, ours, kEyes[look]);
-    for (std::size_t i = 0; i < passed_over.size(); ++i) passed_over[i] &= given.is_legal.values()[i];
+    for (std::size_t i = 0; i < passed_over.size(); ++i) {
+      const bool is_legal = given.is_legal.values()[i] != 0;
+      passed_over[i] = is_legal && is_apart(format, given, ours, i, kEyes[look]) ? 1 : 0;
+    }
   }
 }
 
 Apart FramesApart::from(const ColorAndDepth& frame) const {
   Apart out{};
-  for (std::size_t look = 0; look < kLooks; ++look) {
-    const std::vector<std::uint8_t> differ = apart_at(format_, given_, frame, kEyes[look]);
-    for (std::size_t i = 0; i < differ.size(); ++i) out[look] += differ[i] > passed_over_[look][i];
+  for (std::size_t i = 0; i < given_.color.size(); ++i) {
+    if (is_same(given_, frame, i)) continue;
+    for (std::size_t look = 0; look < kLooks; ++look) {
+      if (passed_over_[look][i] == 0 && is_apart(format_, given_, frame, i, kEyes[look])) ++out[look];
+    }
   }
   return out;
 }
