@@ -8,7 +8,7 @@ namespace {
 
 using C = Conventions;
 
-void turn_corners(Scene& scene) {
+void rotate_corners(Scene& scene) {
   for (Mesh& mesh : scene.meshes) {
     if (mesh.topology != Topology::triangles) continue;
     for (glm::uvec3& t : mesh.triangles) t = {t.y, t.z, t.x};
@@ -37,7 +37,7 @@ SceneByConventions::SceneByConventions(const Scene& scene, const Conventions& c)
   Scene& out = altered_.emplace(scene);
   out.frame.pass.shift += 0.5 - c.sample;
   if (c.depth_planes == C::DepthPlanes::clamped) out.depth_clamp = true;
-  if (c.provoking_vertex == C::Provoking::first) turn_corners(out);
+  if (c.provoking_vertex == C::Provoking::first) rotate_corners(out);
   out.frame.depth = depth_format_of(scene.frame, c);
 }
 

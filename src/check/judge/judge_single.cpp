@@ -12,9 +12,9 @@
 #include "check/judge/captures.h"
 #include "check/judge/failing_stage.h"
 #include "check/judge/judge_records.h"
+#include "check/judge/rotate_corners.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
-#include "check/judge/turn_triangles.h"
 #include "check/judge/unit_normals.h"
 #include "check/verdict/votes.h"
 
@@ -126,7 +126,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     if (foreign) {
       // Fragments are lit by interpolated normals, whose lengths count.
       mine.records = with_unit_normals(scene, std::move(mine.records), OfDraws::lit_at_vertices);
-      turn_as_made(*seen, shown, *referee, mine);
+      rotate_as_made(*seen, shown, *referee, mine);
     }
     if (legal == nullptr && referee->info().legal)
       where_apart = legal_where_apart(scene, mine, answers.captures, *referee, conventions);

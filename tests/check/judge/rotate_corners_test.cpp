@@ -1,5 +1,5 @@
 // A renderer may begin its window triangles at any corner.
-#include "check/judge/turn_triangles.h"
+#include "check/judge/rotate_corners.h"
 
 #include <algorithm>
 #include <memory>
@@ -13,7 +13,7 @@
 namespace plumbline::check {
 namespace {
 
-void turn(Records<double>& r, std::size_t i, std::ptrdiff_t by) {
+void rotate(Records<double>& r, std::size_t i, std::ptrdiff_t by) {
   std::rotate(r.triangles[i].v.begin(), r.triangles[i].v.begin() + by, r.triangles[i].v.end());
   for (const Varying v : kAllVaryings) {
     auto& columns = r.varyings[v].triangles;
@@ -39,31 +39,31 @@ void expect_in_order(const Records<double>& mine, const Records<double>& theirs)
   }
 }
 
-TEST(TurnTriangles, TurnsEachWithItsVaryings) {
+TEST(RotateCorners, TurnsEachWithItsVaryings) {
   const Records<double> theirs = two_triangles();
   for (const std::ptrdiff_t first : {0, 1, 2}) {
     for (const std::ptrdiff_t second : {0, 1, 2}) {
       Records<double> mine = theirs;
-      turn(mine, 0, first), turn(mine, 1, second);
-      turn_triangles(mine, theirs);
+      rotate(mine, 0, first), rotate(mine, 1, second);
+      rotate_corners(mine, theirs);
       expect_in_order(mine, theirs);
     }
   }
 }
 
-TEST(TurnTriangles, SeesWrongPositionsByTheOtherNumbers) {
+TEST(RotateCorners, SeesWrongPositionsByTheOtherNumbers) {
   const Records<double> theirs = two_triangles();
   Records<double> mine = theirs;
   for (std::size_t i : {0u, 1u}) {
     for (WindowVertex<double>& v : mine.triangles[i].v) v.p_win.y = 61 - v.p_win.y;
-    turn(mine, i, 2);
+    rotate(mine, i, 2);
   }
-  turn_triangles(mine, theirs);
+  rotate_corners(mine, theirs);
   expect_in_order(mine, theirs);
 }
 
-// A triangle so small that each corner is near the others: the nearest turn counts.
-TEST(TurnTriangles, TurnsATriangleOfNearCornersToTheNearest) {
+// A triangle so small that each corner is near the others: the nearest rotation counts.
+TEST(RotateCorners, TurnsATriangleOfNearCornersToTheNearest) {
   Records<double> theirs = two_triangles();
   for (std::size_t k = 0; k < 3; ++k) {
     theirs.triangles[1].v[k] = theirs.triangles[1].v[0];
@@ -71,39 +71,39 @@ TEST(TurnTriangles, TurnsATriangleOfNearCornersToTheNearest) {
   }
   for (const std::ptrdiff_t by : {0, 1, 2}) {
     Records<double> mine = theirs;
-    turn(mine, 1, by);
+    rotate(mine, 1, by);
     for (WindowVertex<double>& v : mine.triangles[1].v) v.p_win.x += 1e-8;
-    turn_triangles(mine, theirs);
+    rotate_corners(mine, theirs);
     expect_in_order(mine, theirs);
   }
 }
 
-// Triangle whose corners no number tells apart: it takes the usual turn; without one, none.
-TEST(TurnTriangles, TakesTheUsualTurnWhereNoneIsBetter) {
+// Triangle whose corners no number tells apart: it takes the usual rotation; without one, none.
+TEST(RotateCorners, TakesTheUsualTurnWhereNoneIsBetter) {
   Records<double> theirs = two_triangles();
   for (WindowVertex<double>& v : theirs.triangles[1].v) v = theirs.triangles[1].v[0];
   Records<double> mine = theirs;
-  turn(mine, 1, 1);
+  rotate(mine, 1, 1);
   const Records<double> as_it_was = mine;
-  turn_triangles(mine, theirs);
+  rotate_corners(mine, theirs);
   expect_in_order(mine, as_it_was);
-  turn(mine, 0, 1);
-  turn_triangles(mine, theirs);
+  rotate(mine, 0, 1);
+  rotate_corners(mine, theirs);
   expect_in_order(mine, theirs);
 }
 
 // Begins each window triangle at the second of its corners.
-void turn_all(Capture& c) {
+void rotate_all(Capture& c) {
   for (std::size_t i = 0; i < c.records.triangles.size(); ++i) {
-    if (c.records.triangles[i].corners == 3) turn(c.records, i, 1);
+    if (c.records.triangles[i].corners == 3) rotate(c.records, i, 1);
   }
 }
 
-TEST(TurnTriangles, HoldWhereverTheyBegin) {
+TEST(RotateCorners, HoldWhereverTheyBegin) {
   const auto exact = exact::make_exact();
   const Reference references[] = {{"exact", exact.get()}};
   for (const char* name : {"coverage/fan", "clip/each_plane", "phong/glass", "texture/clipped", "lines/widths"}) {
-    OursAsAnothers turned(turn_all);
+    OursAsAnothers turned(rotate_all);
     const Scene scene = load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/") + name + ".json", {});
     const SceneVerdict verdict = judge_single(scene, turned, references);
     for (const Comparison& c : verdict.comparisons) {

@@ -1,4 +1,4 @@
-#include "check/judge/turn_triangles.h"
+#include "check/judge/rotate_corners.h"
 
 #include <algorithm>
 #include <array>
@@ -16,9 +16,9 @@ namespace plumbline::check {
 
 namespace {
 
-constexpr std::size_t kTurns = 3;
+constexpr std::size_t kRotations = 3;
 using Run = std::span<const WindowTriangle<double>>;
-using Turns = std::array<bool, kTurns>;
+using Rotations = std::array<bool, kRotations>;
 
 constexpr double kNear = 1e-3, kRoundings = 1e-6;  // relative differences
 
@@ -45,14 +45,14 @@ void add_corner(Fit& fit, const WindowVertex<double>& a, const WindowVertex<doub
   fit.add(color);
 }
 
-// Turns with the most numbers that match one of `theirs`; among equals, the nearest, but for roundings.
-Turns best_turns(const WindowTriangle<double>& mine, Run theirs) {
-  std::array<Fit, kTurns> fits;
+// Rotations with the most numbers that match one of `theirs`; among equals, the nearest, but for roundings.
+Rotations best_rotations(const WindowTriangle<double>& mine, Run theirs) {
+  std::array<Fit, kRotations> fits;
   for (const WindowTriangle<double>& other : theirs) {
-    for (std::size_t turn = 0; turn < kTurns; ++turn) {
+    for (std::size_t rotation = 0; rotation < kRotations; ++rotation) {
       Fit fit;
-      for (std::size_t k = 0; k < 3; ++k) add_corner(fit, mine.v[(k + turn) % 3], other.v[k]);
-      fits[turn] = std::max(fits[turn], fit);
+      for (std::size_t k = 0; k < 3; ++k) add_corner(fit, mine.v[(k + rotation) % 3], other.v[k]);
+      fits[rotation] = std::max(fits[rotation], fit);
     }
   }
   const Fit best = std::max({fits[0], fits[1], fits[2]});
@@ -61,44 +61,45 @@ Turns best_turns(const WindowTriangle<double>& mine, Run theirs) {
 }
 
 template <class Corners>
-void turn_by(Corners& corners, std::size_t turn) {
-  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(turn), corners.end());
+void rotate_by(Corners& corners, std::size_t rotation) {
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(rotation), corners.end());
 }
 
 }  // namespace
 
-void turn_triangles(Records<double>& candidate, const Records<double>& reference) {
+void rotate_corners(Records<double>& candidate, const Records<double>& reference) {
   std::vector<WindowTriangle<double>>& all = candidate.triangles;
-  std::vector<Turns> turns(all.size(), Turns{true, false, false});
+  std::vector<Rotations> rotations(all.size(), Rotations{true, false, false});
   matched_by_primitive(Run(all), Run(reference.triangles), [&](Run mine, Run theirs) {
     for (const WindowTriangle<double>& t : mine) {
-      if (t.corners == 3 && !theirs.empty()) turns[static_cast<std::size_t>(&t - all.data())] = best_turns(t, theirs);
+      if (t.corners == 3 && !theirs.empty())
+        rotations[static_cast<std::size_t>(&t - all.data())] = best_rotations(t, theirs);
     }
   });
-  std::array<std::size_t, kTurns> votes{};
-  for (const Turns& best : turns) {
+  std::array<std::size_t, kRotations> votes{};
+  for (const Rotations& best : rotations) {
     if (std::ranges::count(best, true) != 1) continue;
     ++votes[static_cast<std::size_t>(std::ranges::find(best, true) - best.begin())];
   }
   const auto usual = static_cast<std::size_t>(std::ranges::max_element(votes) - votes.begin());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Turns& best = turns[i];
+    const Rotations& best = rotations[i];
     const std::size_t first = static_cast<std::size_t>(std::ranges::find(best, true) - best.begin());
-    const std::size_t turn = best[usual] ? usual : first;
-    if (turn == 0) continue;
-    turn_by(all[i].v, turn);
+    const std::size_t rotation = best[usual] ? usual : first;
+    if (rotation == 0) continue;
+    rotate_by(all[i].v, rotation);
     for (const Varying v : kAllVaryings) {
       auto& columns = candidate.varyings[v].triangles;
-      if (columns.size() == all.size()) turn_by(columns[i], turn);
+      if (columns.size() == all.size()) rotate_by(columns[i], rotation);
     }
   }
 }
 
-void turn_as_made(const Scene& scene, const RendererInfo& shown, Renderer& referee, Capture& candidate) {
+void rotate_as_made(const Scene& scene, const RendererInfo& shown, Renderer& referee, Capture& candidate) {
   if (!lacking_per_stage(scene, shown, Stage::window).empty()) return;
   try {
     const Capture made = run_by_conventions(referee, scene, Stage::window, candidate, shown.conventions);
-    turn_triangles(candidate.records, made.records);
+    rotate_corners(candidate.records, made.records);
   } catch (const std::exception&) {  // the stage's own row says so
   }
 }
