@@ -54,6 +54,14 @@ void learn_clipping(Prober& prober) {
   // At depths of -0.5 and -0.25.
   const bool is_clamped = near_cut || left.depth.empty() ||
                           std::abs(left.depth(0, kFrameSize / 2) - left.depth(kFrameSize / 8, kFrameSize / 2)) < 1e-3;
+  // At depths of 0.25 and 0.75. A triangle of one depth is not clamped.
+  const bool varies =
+      near_cut || left.depth.empty() ||
+      std::abs(left.depth(3 * kFrameSize / 8, kFrameSize / 2) - left.depth(5 * kFrameSize / 8, kFrameSize / 2)) > 0.4;
+  if (!varies) {
+    prober.found(volume, name_of(c.clip_depth), "nothing is cut off before the near plane");
+    return prober.fits_none(planes, "depths are one along the rectangle: " + evidence);
+  }
   if (!is_clamped) {
     prober.found(volume, name_of(c.clip_depth), "nothing is cut off before the near plane");
     return prober.fits_none(planes, "depths before the near plane are neither cut nor clamped: " + evidence);

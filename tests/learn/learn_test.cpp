@@ -248,6 +248,19 @@ TEST(Learn, ARefusedProbeLeavesItsConventionsOpen) {
 }
 
 // A tolerance of edge functions moves edges of one side as a sample off the centre would, and those of the other back.
+// One depth a triangle, of a renderer that cuts nothing, looks clamped at the near plane alone.
+TEST(Learn, OneDepthATriangleIsNotClamped) {
+  pipeline::Stages stages = pipeline::production_stages();
+  for (const faults::Fault& fault : faults::all()) {
+    if (fault.name == "depth.one_per_triangle" || fault.name == "clip.no_near_plane") fault.apply(stages);
+  }
+  const C found = learned(pipeline::make_pipeline(stages));
+  EXPECT_EQ(std::ranges::count(found.open, "depth_planes"), 1);
+  EXPECT_TRUE(std::ranges::any_of(found.unexplained, [](const std::string& line) {
+    return line.starts_with("depth_planes: ") && line.find("depths are one along the rectangle") != line.npos;
+  }));
+}
+
 TEST(Learn, APlaneThatAloneCutsNothingIsAFinding) {
   OfAlteredScenes renderer;
   renderer.after = [](const Scene& scene, Capture& c) {
