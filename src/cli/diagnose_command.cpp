@@ -138,8 +138,8 @@ std::string known_faults(const Scene& scene, const Capture& left, const Renderer
   const std::vector<std::string> likely = likely_of(found, diagnosis.verdict);
   if (likely.empty() || (holds(diagnosis) && (!found.whole || found.together))) return "";
   const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
-  return fmt::format("\npixels unlike plumbline's in colour or depth: {}; known faults that draw such a frame:\n{}{}",
-                     found.apart, found.text,
+  return fmt::format("\npixels unlike plumbline's in colour{}: {}; known faults that draw such a frame:\n{}{}",
+                     found.by_color ? " (depths are like no fault's)" : " or depth", found.apart, found.text,
                      is_open            ? likely_line(found)
                      : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", fmt::join(likely, " or "))
                                         : "");
@@ -282,9 +282,9 @@ int diagnose_picture(const DiagnoseOptions& o) {
   const Lookalikes found = lookalikes(scene, given);
   fmt::print("{}: {} of {} pixels are more than {}/255{} from ours\n", o.picture, found.apart, given.color.size(),
              found.codes,
-             o.depth.empty()    ? ""
-             : found.codes == 1 ? ", or a step of depth,"
-                                : ", or a quarter of a step of depth,");
+             o.depth.empty() || found.by_color ? ""
+             : found.codes == 1                ? ", or a step of depth,"
+                                               : ", or a quarter of a step of depth,");
   if (found.apart == 0) return kHolds;
   fmt::print("{}", found.text);
   if (!found.likely.empty()) fmt::print("{}", likely_line(found));

@@ -63,6 +63,19 @@ TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
   }
 }
 
+// Depths between snapped corners, or of another arithmetic, are a little off everywhere.
+TEST(Lookalikes, count_by_colour_alone_where_depths_are_like_no_faults) {
+  const Scene scene = scene_of("light/sphere_gouraud.json");
+  for (const char* fault : {"window.y_flipped", "light.ambient_per_light"}) {
+    GivenFrame given = drawn(scene, fault);
+    EXPECT_FALSE(lookalikes(scene, given).by_color) << fault;
+    for (double& z : given.depth.values()) z += z < 1 ? 1e-4 : 0;
+    const Lookalikes found = lookalikes(scene, given);
+    EXPECT_TRUE(found.likely.ends_with(std::string("(fault ") + fault + ")")) << fault << "\n" << found.text;
+    EXPECT_TRUE(found.by_color) << fault;
+  }
+}
+
 TEST(Lookalikes, alpha_that_is_not_written_is_told_where_there_is_one) {
   const Scene scene = scene_of("interpolation/alpha_of_one_corner.json");
   GivenFrame given = drawn(scene, "merge.truncated");

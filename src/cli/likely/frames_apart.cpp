@@ -17,7 +17,7 @@ struct Eye {
 };
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
 constexpr std::array<Eye, kLooks> kEyes = {
-    {{1.5f, 1.5, 0x1p-20, true}, {1.5f, 1.5, 0x1p-20}, {0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}}};
+    {{1.5f, 1.5, 0x1p-20, true}, {1.5f, 1.5, 0x1p-20}, {1.5f, kUnseen, 0}, {0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}}};
 
 // Whether the frames differ in a pixel.
 bool is_apart(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i,

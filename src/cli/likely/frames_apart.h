@@ -30,10 +30,10 @@ struct GivenFrame : ColorAndDepth {
   StageSet wrong{};        ///< stages that are wrong on their own input: their faults are named before others
 };
 
-/// Threshold of a difference. Coarse: beyond 1.5 codes of 8 bits or 1.5 steps of depth, with alpha or without. Fine:
-/// beyond half a code, or a quarter of a step, which only truncation makes.
-enum Look { kCoarseByAlpha, kCoarse, kFineColor, kFineDepth };
-constexpr std::size_t kLooks = 4;
+/// Threshold of a difference. Coarse: beyond 1.5 codes of 8 bits or 1.5 steps of depth, with alpha or without, or by
+/// colour alone, whatever the depths. Fine: beyond half a code, or a quarter of a step, which only truncation makes.
+enum Look { kCoarseByAlpha, kCoarse, kCoarseColor, kFineColor, kFineDepth };
+constexpr std::size_t kLooks = 5;
 constexpr bool is_fine(Look look) { return look >= kFineColor; }
 /// Number of pixels that differ, by Look.
 using Apart = std::array<std::size_t, kLooks>;

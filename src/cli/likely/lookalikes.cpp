@@ -207,16 +207,26 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   std::erase_if(all, [&](const Lookalike& l) {
     return l.apart == without || l.is_blank;  // without effect on this scene; or nothing of it is drawn, and some was
   });
-  std::vector<Lookalikes> found;
-  for (const Look look : {kCoarseByAlpha, kCoarse, kFineColor, kFineDepth}) {
-    if (is_fine(look) && !found.empty()) return found.front();  // coarse differences have no fine cause
-    if (apart[look] == 0) continue;
+  const auto seen_by = [&](Look look, bool in_pairs) {
     std::vector<Lookalike> nearest = all;
-    Lookalikes seen_by = ranked(nearest, apart, look, given.wrong);
-    if (look == kCoarse && seen_by.likely.empty() && !nearest.empty())
-      seek_together(trial, all, nearest.front(), look, given.wrong, seen_by);
-    if (!seen_by.likely.empty()) return seen_by;
-    if (!is_fine(look)) found.push_back(std::move(seen_by));
+    Lookalikes out = ranked(nearest, apart, look, given.wrong);
+    out.by_color = look == kCoarseColor;
+    if (in_pairs && out.likely.empty() && !nearest.empty())
+      seek_together(trial, all, nearest.front(), look, given.wrong, out);
+    return out;
+  };
+  std::vector<Lookalikes> found;
+  if (given.depth.empty()) apart[kCoarseColor] = 0;  // as kCoarse
+  for (const Look look : {kCoarseByAlpha, kCoarse, kCoarseColor}) {
+    if (apart[look] == 0) continue;
+    found.push_back(seen_by(look, look == kCoarse));
+    if (!found.back().likely.empty()) return found.back();
+  }
+  if (!found.empty()) return found.front();
+  for (const Look look : {kFineColor, kFineDepth}) {  // coarse differences have no fine cause
+    if (apart[look] == 0) continue;
+    const Lookalikes fine = seen_by(look, false);
+    if (!fine.likely.empty()) return fine;
   }
   return {};  // fine differences that no fault explains: other roundings
 }
