@@ -151,9 +151,8 @@ BoundedFour FragmentColor::textured(const BoundedFour& color) const {
 }
 
 void FragmentColor::fog(BoundedFour& color) const {
-  const BoundedFour p = attribute([](const Corner& c) {
-    return BoundedFour{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error};
-  });
+  const auto z_eye = [](const Corner& c) { return BoundedFour{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error}; };
+  const BoundedFour p = attribute(z_eye);
   const double f_error =
       std::isfinite(p.bound) ? std::min(1.0, fog_factor(*draw_.fog, {p.value.z, p.bound}, {16}).error) : 1;
   const glm::dvec3 from_fog = glm::abs(glm::dvec3(color.value) - glm::dvec3(draw_.fog->color));
