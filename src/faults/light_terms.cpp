@@ -23,7 +23,7 @@ struct LitPoint {
 };
 
 /// The light equation as a sum of lights, each of whose points is changed.
-template <auto change>
+template <auto change, bool clamps = true>
 Color<float> lit_light_by_light(const Illumination& illumination, const Reflectance<float>& reflectance,
                                 const Vec3<float>& p_eye, const Vec3<float>& n_eye) {
   Color<float> sum = pipeline::lit<float, float>({illumination.model, {}}, reflectance, p_eye, n_eye);
@@ -39,10 +39,11 @@ Color<float> lit_light_by_light(const Illumination& illumination, const Reflecta
     const Color<float> added = pipeline::lit<float, float>(one, of_one, point.p_eye, point.n_eye);
     sum = {sum.r + added.r, sum.g + added.g, sum.b + added.b, sum.a};
   }
+  if (!clamps) return sum;
   return {pipeline::clamp01(sum.r), pipeline::clamp01(sum.g), pipeline::clamp01(sum.b), sum.a};
 }
 
-template <auto change>
+template <auto change, bool clamps>
 void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart part, pipeline::Lights lights,
                 std::span<const Vertex<float>> vertices, std::size_t attribute, std::span<pipeline::Attributes> out) {
   const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
@@ -53,21 +54,23 @@ void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart 
     const Reflectance<float> of_vertex =
         pipeline::reflectance<float>(scene, by_color ? material : pipeline::ColoredMaterial{material.own}, color);
     const Vec3<float>& n = vertices[i].n_eye;
-    const Color<float> lit = lit_light_by_light<change>(in_eye_space, of_vertex, vertices[i].p_eye, part.back ? -n : n);
+    const Color<float> lit =
+        lit_light_by_light<change, clamps>(in_eye_space, of_vertex, vertices[i].p_eye, part.back ? -n : n);
     out[i][attribute] = {lit.r, lit.g, lit.b, part.secondary ? 0 : lit.a};
   }
 }
 
-template <auto change>
+template <auto change, bool clamps = true>
 void at_vertices(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
                  std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   pipeline::light(scene, draw, mesh, lights, vertices, out);
   if (!is_lit_per_vertex(draw)) return;
   const std::span<pipeline::Attributes> added = std::span(out).last(vertices.size());
-  light_part<change>(scene, draw, mesh, {}, lights, vertices, 0, added);
+  light_part<change, clamps>(scene, draw, mesh, {}, lights, vertices, 0, added);
   for (const Varying v : kAllVaryings) {
     if (!is_lit(v) || !carries(scene, draw, v)) continue;
-    light_part<change>(scene, draw, mesh, {is_back(v), is_secondary(v)}, lights, vertices, 1 + index_of(v), added);
+    light_part<change, clamps>(scene, draw, mesh, {is_back(v), is_secondary(v)}, lights, vertices, 1 + index_of(v),
+                               added);
   }
 }
 
@@ -123,6 +126,8 @@ constexpr auto kFromTheEye = [](LitPoint& at, const LightModel& model) {
   at.p_eye = -at.p_eye;
 };
 
+constexpr auto kNoChange = [](LitPoint&, const LightModel&) {};
+
 template <auto change>
 constexpr Fault term_at_vertices(std::string_view name, std::string_view what) {
   return {name, what, Stage::light, put<&Stages::light, at_vertices<change>>};
@@ -137,6 +142,8 @@ constexpr std::array kTerms = {
     term_at_vertices<kLongVector>("light.l_not_normalised",
                                   "the vector to a point light is not brought to unit length"),
     term_at_vertices<kFromTheEye>("light.view_reversed", "highlights are by the vector from the eye, not to it"),
+    Fault{"light.not_clamped", "lit colours beyond 1 are interpolated, and clamped at the fragments", Stage::light,
+          put<&Stages::light, at_vertices<kNoChange, false>>},
     term_per_fragment<kAbsoluteCosine>("shade.n_l_absolute",
                                        "light per fragment: |N.L| for max(N.L, 0): surfaces are lit from behind"),
     term_per_fragment<kLongVector>("shade.l_not_normalised",

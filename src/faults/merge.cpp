@@ -21,8 +21,8 @@ bool depth_passes_by(DepthFunc func, float incoming, float stored) {
   return pipeline::compares<float>(other(func), incoming, stored);
 }
 
-constexpr auto kLessEqualForLess = [](DepthFunc func) {
-  return func == DepthFunc::less ? DepthFunc::less_equal : func;
+constexpr auto kEqualToo = [](DepthFunc func) {
+  return func == DepthFunc::less ? DepthFunc::less_equal : func == DepthFunc::greater ? DepthFunc::greater_equal : func;
 };
 // a < b for b < a.
 constexpr auto kSidesSwapped = [](CompareFunc func) {
@@ -178,8 +178,8 @@ void put_resolve(Stages& stages) {
 }
 
 constexpr std::array kMerge = {
-    Fault{"visibility.less_equal", "an equal depth passes where only a smaller one may", Stage::visibility,
-          put<&Stages::depth_passes, depth_passes_by<kLessEqualForLess>>},
+    Fault{"visibility.less_equal", "an equal depth passes where only a smaller one, or only a greater one, may",
+          Stage::visibility, put<&Stages::depth_passes, depth_passes_by<kEqualToo>>},
     Fault{"visibility.greater_for_less", "the depth test asks for the farther one", Stage::visibility,
           put<&Stages::depth_passes, depth_passes_by<kSidesSwapped>>},
     Fault{"visibility.alpha_at_reference", "an alpha equal to the reference passes where only a greater one may",

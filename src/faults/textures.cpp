@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -84,6 +85,28 @@ FilteredTexel<float> levels_swapped(const TextureSetup& t, const TexCoords<float
   return out;
 }
 
+// The level below lambda alone, where two are mixed.
+FilteredTexel<float> one_level(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  FilteredTexel<float> out = pipeline::texture<float>(t, at, g);
+  const bool mixes =
+      t.sampler.min == MinFilter::nearest_mipmap_linear || t.sampler.min == MinFilter::linear_mipmap_linear;
+  if (mixes && out.lod > t.c) out.color = pipeline::sample<float>(t, at, std::max(std::floor(out.lod), 0x1p-10f));
+  return out;
+}
+
+// Of a linear filter of the base level, the place between four texels' centres with its coordinates exchanged.
+FilteredTexel<float> weights_exchanged(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  const FilteredTexel<float> right = pipeline::texture<float>(t, at, g);
+  const bool magnified = right.lod <= t.c;
+  const bool linear = magnified ? t.sampler.mag == MagFilter::linear : t.sampler.min == MinFilter::linear;
+  if (!linear) return right;
+  const double u = static_cast<double>(at.s) * t.width - 0.5, v = static_cast<double>(at.t) * t.height - 0.5;
+  const double i = std::floor(u), j = std::floor(v);
+  const auto s = static_cast<float>((i + (v - j) + 0.5) / t.width),
+             r = static_cast<float>((j + (u - i) + 0.5) / t.height);
+  return {pipeline::sample<float>(t, {s, r}, right.lod), right.lod};
+}
+
 // 9. Shade.
 
 using TexturedAttributes = pipeline::SurfaceAttributes<float>;
@@ -162,6 +185,10 @@ constexpr std::array kTextures = {
           put<&Stages::texture, levels_by_row>},
     Fault{"texture.levels_doubled", "the level of detail is that of the pixel's area in texels", Stage::texture,
           put<&Stages::texture, levels_doubled>, "bochs-emu/Bochs#222"},
+    Fault{"texture.one_level", "of two levels that should be mixed, the finer is taken", Stage::texture,
+          put<&Stages::texture, one_level>},
+    Fault{"texture.weights_exchanged", "a linear filter's weights along s and t change places", Stage::texture,
+          put<&Stages::texture, weights_exchanged>},
     Fault{"texture.levels_swapped", "of two levels mixed, each gets the other's share", Stage::texture,
           put<&Stages::texture, levels_swapped>},
     Fault{"shade.modulate_for_replace", "the texture's colour is multiplied in where it should replace", Stage::shade,

@@ -1,6 +1,7 @@
 // Known faults that draw a frame: by the conventions given, and by the pixels that are not legal.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -61,6 +62,23 @@ TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
     EXPECT_TRUE(found.whole) << fault;
     for (const std::string& tie : found.ties) EXPECT_NE(tie.find("(fault notes."), tie.npos) << fault << " or " << tie;
   }
+}
+
+// Of dark colours, gamma 1/2.2 and sRGB are more than a code apart.
+TEST(Lookalikes, know_arrays_and_encodings_that_a_file_may_hold) {
+  const Scene square = scene_of("depth/ties_less.json"), ramp = scene_of("interpolation/w_ratio.json");
+  ASSERT_EQ(square.frame.width, square.frame.height);
+  const GivenFrame right = drawn(square, "");
+  GivenFrame transposed = right, gamma = drawn(ramp, "");
+  for (int y = 0; y < square.frame.height; ++y) {
+    for (int x = 0; x < square.frame.width; ++x)
+      transposed.color(x, y) = right.color(y, x), transposed.depth(x, y) = right.depth(y, x);
+  }
+  for (glm::vec4& color : gamma.color.values()) {
+    for (int i = 0; i < 3; ++i) color[i] = std::pow(color[i], 1 / 2.2f);
+  }
+  EXPECT_EQ(lookalikes(square, transposed).likely, "file (fault file.transposed)");
+  EXPECT_EQ(lookalikes(ramp, gamma).likely, "file (fault file.gamma)");
 }
 
 // Depths between snapped corners, or of another arithmetic, are a little off everywhere.

@@ -115,6 +115,20 @@ TEST_F(Cli, program_of_a_course_is_graded_scene_by_scene) {
   }
 }
 
+TEST_F(Cli, homework_shows_what_a_frame_could_hide) {
+  const auto differs = [&](const std::string& course, const std::string& fault, const std::string& scene) {
+    const Outcome run =
+        plumb("check " PLUMBLINE_SOURCE_DIR "/tests/homework/" + course + "/" + scene + ".json --fault " + fault);
+    EXPECT_EQ(run.code, 1) << course << ' ' << fault << '\n' << run.text;
+  };
+  for (const char* course : {"gl", "games101", "gzrender", "tinyrenderer"})
+    differs(course, "visibility.less_equal", "11_nearer_first");
+  for (const char* course : {"gl", "games101"}) {
+    differs(course, "clip.no_near_plane", "13_behind_the_eye");
+    differs(course, "clip.no_far_plane", "13_behind_the_eye");
+  }
+}
+
 TEST_F(Cli, program_may_begin_in_clip_or_window_space) {
   const std::string diagnose =
       "diagnose " + kScenes + "coverage/fan.json --program 'GIVEN=1 " PLUMBLINE_C_RECORDER " {serve}'";

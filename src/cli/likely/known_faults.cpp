@@ -84,7 +84,7 @@ void keep_farthest(Scene& scene) {
 }
 
 // Faults that a right frame gets on its way into a file.
-void add_files(std::vector<KnownFault>& out) {
+void add_files(bool is_square, std::vector<KnownFault>& out) {
   const auto add = [&](const char* name, const char* says, std::function<void(ColorAndDepth&)> change) {
     out.push_back({.stage = "file", .name = name, .says = says, .of_frame = std::move(change)});
   };
@@ -97,10 +97,17 @@ void add_files(std::vector<KnownFault>& out) {
       rearranged({}, 0, [](int x, int y, int, int height) { return glm::ivec2(x, height - 1 - y); }));
   add("file.mirrored", "the columns are written from the other end",
       rearranged({}, 0, [](int x, int y, int width, int) { return glm::ivec2(width - 1 - x, y); }));
+  if (is_square) {
+    add("file.transposed", "rows and columns change places: an array is indexed [x, y]",
+        rearranged({}, 0, [](int x, int y, int, int) { return glm::ivec2(y, x); }));
+  }
   add("file.bgr", "red and blue are swapped",
       of_pixels([](glm::vec4& color, double*) { std::swap(color.r, color.b); }));
   add("file.srgb", "colours are encoded as sRGB once more",
       of_pixels([](glm::vec4& color, double*) { encode(color); }));
+  add("file.gamma", "colours are raised to 1/2.2", of_pixels([](glm::vec4& color, double*) {
+        for (int i = 0; i < 3; ++i) color[i] = std::pow(std::clamp(color[i], 0.0f, 1.0f), 1 / 2.2f);
+      }));
   add("file.depth_of_ndc", "depths are in [-1, 1], those of normalized device coordinates",
       change_depth([](double z) { return 2 * z - 1; }));
   add("file.depth_reversed", "depths are 1 at the near plane and 0 at the far one",
@@ -125,7 +132,7 @@ bool is_of(const StageSet& stages, const KnownFault& f) {
 
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
   std::vector<KnownFault> out;
-  add_files(out);
+  add_files(scene.frame.width == scene.frame.height, out);
   add_neighbours(scene.frame, out);
   if (given.has_alpha) {
     const float cleared = scene.frame.clear_color.a;
