@@ -54,10 +54,22 @@ std::string without_command(std::string text, const std::string& command) {
   return at == text.npos ? text : text.erase(at, command.size() + 1);
 }
 
+// A failure's text without the end of the program's stderr, which tells of other scenes, too. Of a program that ended
+// without a signal, with the last line of it: the exception's.
+std::string without_stderr(const std::string& text) {
+  constexpr std::string_view kStderr = "\nthe end of its stderr:\n";
+  const std::size_t at = text.find(kStderr);
+  if (at == text.npos) return text;
+  const std::string what = text.substr(0, at);
+  if (what.find("exited with status") == what.npos || what.find("signal") != what.npos) return what;
+  const std::size_t end = text.find_last_not_of(" \n"), last = text.rfind('\n', end);
+  return end < at + kStderr.size() ? what : what + ": " + text.substr(last + 1, end - last);
+}
+
 std::string cause_of(const check::Comparison& row, const std::string& command) {
   std::string out(check::name_of(row.outcome));
   if (row.outcome != check::Outcome::different)
-    return row.note.empty() ? out : out + ": " + without_numbers(without_command(row.note, command));
+    return row.note.empty() ? out : out + ": " + without_numbers(without_stderr(without_command(row.note, command)));
   if (!row.measurement.mismatch.empty()) return out + " (nothing fits)";
   const std::string field = without_component(row.measurement.worst.place.field);
   return field.empty() ? out : out + " " + field;

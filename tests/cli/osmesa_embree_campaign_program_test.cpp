@@ -49,6 +49,21 @@ TEST_F(Campaign, OfAProgramTellsFailuresApartAndNotCommands) {
   }
 }
 
+// Its words about each scene, and about scenes before, do not.
+TEST_F(Campaign, OfAProgramTellsFailuresApartByTheLastLineOfItsStderr) {
+  write(folder_ / "mine.sh",
+        "echo \"drawing $(cksum <\"$1/manifest.json\" | tr 0-9 a-j)\" >&2\n"
+        "grep -q stencil \"$1/manifest.json\" && echo 'no stencil' >&2 || echo 'no luck' >&2\nexit 3\n");
+  const Outcome run = campaign(
+      "c", "--seeds 1..12 --generator hard --against exact --program 'sh " + at("mine.sh") + " {input} {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  std::size_t findings = 0;
+  for (std::size_t at = 0; (at = run.text.find("  repeat: ", at)) != run.text.npos; ++at) ++findings;
+  EXPECT_LE(findings, 2u) << run.text;
+  EXPECT_TRUE(run.says("merge, failed: program: exited with status #: no ")) << run.text;
+  EXPECT_FALSE(run.says("stderr: drawing")) << run.text;
+}
+
 TEST_F(Campaign, GivesAProgramTheTimeLimit) {
   const Outcome run =
       campaign("c", "--seeds 1..1 --generator hard --judge-only --time-limit 1 --program 'sleep 100; {serve}'");
