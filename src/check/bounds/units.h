@@ -106,6 +106,11 @@ inline double outside(double value, double low, double high) {
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
 }
 
+/// Value that means nothing, such as a winner's colour where no fragment wins: any finite number holds.
+inline void finite_value(Meter& meter, double value, const Place& place) {
+  meter.value(std::isfinite(value) ? 0 : kInfinite, 0, place, value, 0);
+}
+
 // No bound can be computed (a triangle of no area): any number is legal, and none is proven.
 inline void open_value(Meter& meter, double value, const Place& place, double reference) {
   meter.ambiguous();

@@ -51,14 +51,15 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
               {x, y, -1, "cleared z"}, z, cleared.z_lo);
 }
 
-// `half_code`: added to the oracle's bound for rounding to the frame's format. `at_pixel(meter, x, y)`: more values.
+// `half_code`: added to the oracle's bound for rounding to the frame's format. `at_pixel(meter, x, y)`: more values;
+// true: the pixel's colour is not compared.
 template <class AtPixel>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
                                 double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
-    at_pixel(meter, x, y);
+    if (at_pixel(meter, x, y)) return;
     if (legal.at(x, y).size() > 1) meter.ambiguous();
     const glm::vec4 c = color(x, y);
     const auto wanted = [&](const LegalAnswer& a, int i) {
@@ -115,8 +116,13 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
 }
 
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
-  return compare_legal_color(candidate.shaded, candidate, legal, 0, {Conventions{}, 0}, factor,
-                             [](Meter&, int, int) {});
+  // Where only the background is legal, no fragment has a colour; merge judges the clear colour.
+  const auto has_no_winner = [&](Meter& meter, int x, int y) {
+    if (candidate.color.empty() || !is_cleared(held_to(legal, candidate, x, y))) return false;
+    for (int i = 0; i < 4; ++i) finite_value(meter, candidate.shaded(x, y)[i], {x, y, kBackground, "color"});
+    return true;
+  };
+  return compare_legal_color(candidate.shaded, candidate, legal, 0, {Conventions{}, 0}, factor, has_no_winner);
 }
 
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
@@ -124,7 +130,10 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
   const double scale = color_scale(scene.frame.color);
   const bool codes = scale > 0;
   const StoredColors stored{conventions, scale};
-  const auto clear_depth = [&](Meter& meter, int x, int y) { meter_clear_depth(meter, scene, candidate, legal, x, y); };
+  const auto clear_depth = [&](Meter& meter, int x, int y) {
+    meter_clear_depth(meter, scene, candidate, legal, x, y);
+    return false;
+  };
   if (!legal.color_lo.empty()) {
     const double rounding = codes ? 0.5 / scale + 4 * u : u;
     return compare_planes(candidate.color, legal.color_lo, "bound", [&](Meter& meter, int x, int y) {

@@ -16,14 +16,6 @@ namespace plumbline::check {
 
 namespace {
 
-void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Vec4<double>& tolerance, double unit,
-               const Place& place) {
-  for (int c = 0; c < 4; ++c) {
-    const double x = a[c], y = b[c];
-    meter.value(difference(x, y) / unit, tolerance[c], place, x, y);
-  }
-}
-
 // Compares a plane (such as &Planes::color) by visit(meter, x, y, winner) where both sides have the same winner;
 // visibility judges the other pixels.
 Measurement where_winners_agree(const Planes& a, const Planes& b, auto plane, const std::string& unit, auto visit) {
@@ -246,8 +238,11 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
   const FragmentBounds bounds(scene, candidate, reference, factor);
   return where_winners_agree(a, b, &Planes::shaded, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const Place place{x, y, id, "color", true};
-    if (id == kBackground)
-      return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
+    if (id == kBackground) {  // no fragment has a colour; merge judges the clear colour
+      for (int c = 0; c < 4; ++c)
+        finite_value(meter, a.shaded(x, y)[c], place), finite_value(meter, b.shaded(x, y)[c], place);
+      return;
+    }
     const FragmentBound bound = bounds.of_winner(id, x, y);
     meter.suspect(bound.reason);
     const std::vector<EdgeValue> edges = values_beside(scene, candidate, id, x, y);

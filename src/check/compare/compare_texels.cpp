@@ -128,6 +128,12 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
   Measurement m = compare_planes(a.texel, b.texel, "u", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
+    if (id == kBackground) {
+      for (const glm::vec4& texel : {a.texel(x, y), b.texel(x, y)}) {
+        for (int c = 0; c < 4; ++c) finite_value(meter, texel[c], {x, y, id, "texel", true});
+      }
+      return;
+    }
     std::optional<std::size_t> last;
     drawn.each(x, y, [&](std::size_t i) { last = i; });
     std::string_view reason;

@@ -184,7 +184,7 @@ TEST_F(PlanePairs, DepthIsHeldToTheBoundAndOneStep) {
 
 TEST_F(PlanePairs, TheBackgroundsDepthAndColoursAreEqual) {
   EXPECT_TRUE(fails(run(depth(), [](Planes& p) { p.depth(0, 3) = std::nextafter(1.0, 0.0); })));
-  EXPECT_TRUE(fails(run(shaded(), [](Planes& p) { p.shaded(0, 3).g = 1e-30f; })));
+  EXPECT_TRUE(passes(run(shaded(), [](Planes& p) { p.shaded(0, 3).g = 1e-30f; }))) << "no fragment has a colour there";
   EXPECT_TRUE(fails(run(codes(), [](Planes& p) { p.color(0, 3).g = code(2); })));
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using C = Conventions;
 
-Scene suite_scene(const std::string& name) { return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name, {}); }
+Scene scene_of_suite(const std::string& name) { return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name, {}); }
 
 Capture drawn_by(const Scene& scene, decltype(pipeline::Stages::texture) texture) {
   pipeline::Stages stages = pipeline::production_stages();
@@ -54,7 +54,7 @@ TEST(StrangersTextures, ALevelOfDetailMayBeApproximatedWhereThatIsDeclared) {
   C declared;
   declared.level_of_detail = C::LevelOfDetail::approximate;
   for (const char* name : {"texture/floor_linear_mipmap_linear.json", "texture/floor_nearest.json"}) {
-    const Scene scene = suite_scene(name);
+    const Scene scene = scene_of_suite(name);
     Capture candidate = drawn_by(scene, test::by_largest_rho);
     expect_right_if_declared(scene, candidate, declared);
     declared.level_of_detail = C::LevelOfDetail::per_square;
@@ -68,14 +68,14 @@ TEST(StrangersTextures, ALevelOfDetailMayBeApproximatedWhereThatIsDeclared) {
 TEST(StrangersTextures, MagnificationMayEndAtZeroWhereThatIsDeclared) {
   C declared;
   declared.magnified = C::Magnified::up_to_zero;
-  const Scene scene = suite_scene("texture/wall_switch_over.json");
+  const Scene scene = scene_of_suite("texture/wall_switch_over.json");
   expect_right_if_declared(scene, drawn_by(scene, test::magnified_up_to_zero), declared);
 }
 
 TEST(StrangersTextures, EitherLevelIsNearestHalfWayWhereThatIsDeclared) {
   C declared;
   declared.half_way_level = C::HalfWay::either;
-  const Scene scene = suite_scene("texture/half_way_levels.json");
+  const Scene scene = scene_of_suite("texture/half_way_levels.json");
   const Capture candidate = drawn_by(scene, test::half_way_up);
   expect_right_if_declared(scene, candidate, declared);
   const Capture ours = drawn_by(scene, pipeline::production_stages().texture);
@@ -85,7 +85,7 @@ TEST(StrangersTextures, EitherLevelIsNearestHalfWayWhereThatIsDeclared) {
 TEST(StrangersTextures, WeightsHaveTheDeclaredBits) {
   C declared;
   declared.texture_bits = 6;
-  const Scene scene = suite_scene("texture/board_linear.json");
+  const Scene scene = scene_of_suite("texture/board_linear.json");
   const Capture candidate = drawn_by(scene, test::weights_of_6_bits);
   expect_right_if_declared(scene, candidate, declared);
   declared.texture_bits = 9;
@@ -93,7 +93,7 @@ TEST(StrangersTextures, WeightsHaveTheDeclaredBits) {
 }
 
 TEST(StrangersTextures, APolygonOffsetHasTheDeclaredUnit) {
-  const Scene scene = suite_scene("polygon_offset/steps.json");
+  const Scene scene = scene_of_suite("polygon_offset/steps.json");
   const Capture ours = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
   const Capture candidate =
       pipeline::make_pipeline()->capture(test::with_half_of_offsets(scene), {.records = StageSet::all()});
