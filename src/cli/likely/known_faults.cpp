@@ -103,15 +103,39 @@ void add_files(bool is_square, std::vector<KnownFault>& out) {
   }
   add("file.bgr", "red and blue are swapped",
       of_pixels([](glm::vec4& color, double*) { std::swap(color.r, color.b); }));
-  add("file.srgb", "colours are encoded as sRGB once more",
-      of_pixels([](glm::vec4& color, double*) { encode(color); }));
-  add("file.gamma", "colours are raised to 1/2.2", of_pixels([](glm::vec4& color, double*) {
-        for (int i = 0; i < 3; ++i) color[i] = std::pow(std::clamp(color[i], 0.0f, 1.0f), 1 / 2.2f);
-      }));
   add("file.depth_of_ndc", "depths are in [-1, 1], those of normalized device coordinates",
       change_depth([](double z) { return 2 * z - 1; }));
   add("file.depth_reversed", "depths are 1 at the near plane and 0 at the far one",
       change_depth([](double z) { return 1 - z; }));
+}
+
+// Encodings of colours, before they become codes where fragments replace what is stored.
+void add_encodings(std::vector<KnownFault>& out) {
+  const auto add = [&](const char* name, const char* says, void (*encode_color)(glm::vec4&)) {
+    out.push_back({.stage = "file",
+                   .name = name,
+                   .says = says,
+                   .of_scene =
+                       [](Scene& s) {
+                         if (colors_replace(s)) s.frame.color = ColorFormat::rgba32f;
+                       },
+                   .of_frame = of_pixels([=](glm::vec4& color, double*) { encode_color(color); })});
+  };
+  add("file.srgb", "colours are encoded as sRGB once more", encode);
+  add("file.gamma", "colours are raised to 1/2.2", [](glm::vec4& color) {
+    for (int i = 0; i < 3; ++i) color[i] = std::pow(std::clamp(color[i], 0.0f, 1.0f), 1 / 2.2f);
+  });
+}
+
+// Faces that are culled in draws that cull none.
+void add_culls(std::vector<KnownFault>& out) {
+  const auto add = [&](const char* name, const char* says, Cull cull) {
+    out.push_back({.stage = "window", .name = name, .says = says, .of_scene = [cull](Scene& s) {
+                     for (Draw& draw : s.draws) draw.cull = draw.cull == Cull::none ? cull : draw.cull;
+                   }});
+  };
+  add("window.back_culled", "back faces are culled, though no face is to be", Cull::back);
+  add("window.front_culled", "front faces are culled, though no face is to be", Cull::front);
 }
 
 // Whether the fault is what the conventions declare.
@@ -133,6 +157,8 @@ bool is_of(const StageSet& stages, const KnownFault& f) {
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
   std::vector<KnownFault> out;
   add_files(scene.frame.width == scene.frame.height, out);
+  add_encodings(out);
+  add_culls(out);
   add_neighbours(scene.frame, out);
   if (given.has_alpha) {
     const float cleared = scene.frame.clear_color.a;
