@@ -16,6 +16,7 @@
 #include "check/diagnose/diagnose.h"
 #include "check/diagnose/history.h"
 #include "cli/commands.h"
+#include "cli/likely/holes.h"
 #include "cli/likely/lookalikes.h"
 #include "cli/options/outputs.h"
 #include "cli/options/pixel_argument.h"
@@ -145,6 +146,15 @@ std::string known_faults(const Scene& scene, const Capture& left, const Renderer
                                         : "");
 }
 
+// Text about pixels that lack a surface, of another renderer's wrong frame whose coverage nobody judged.
+std::string lines_of_holes(const DiagnoseOptions& o, const Scene& scene, const Capture& left,
+                           const RendererInfo& renderer, const check::Diagnosis& diagnosis) {
+  if (left.planes.color.empty() || holds(diagnosis) || !check::is_by_frame_alone(diagnosis.verdict)) return "";
+  const std::string text = holes_text(scene, frame_of(left, renderer, diagnosis.verdict));
+  const bool may_ask = !text.empty() && !o.candidate.command.empty() && !o.candidate.probes;
+  return (text.empty() ? "" : "\n" + text) + (may_ask ? "--each-primitive judges coverage\n" : "");
+}
+
 // Pointer to `plumb learn`: another renderer's frame is wrong, no conventions are declared, and no known fault draws
 // such a frame.
 std::string hint_where_unexplained(const DiagnoseOptions& o, const check::Diagnosis& diagnosis,
@@ -176,16 +186,17 @@ DiagnosisAnswer diagnose_here(Subject& subject, const Watch& watch) {
                                             outside ? "the arrays of a stage" : "a stage",
                                             check::judged_text(diagnosis.verdict)));
   }
-  std::string against_itself, open, faults;
+  std::string against_itself, open, faults, holes;
   if (outside) {
     open = convention_notes(o.candidate.conventions);
     const Capture left = candidate->capture(scene, Request{});
     against_itself = convention_lines(candidate->info().conventions) + contradiction_lines(left, candidate->info());
     faults = known_faults(scene, left, candidate->info(), diagnosis);
+    holes = lines_of_holes(o, scene, left, candidate->info(), diagnosis);
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
                                 report::diagnosis_text(diagnosis)) +
-                    open + faults + hint_where_unexplained(o, diagnosis, faults);
+                    open + holes + faults + hint_where_unexplained(o, diagnosis, faults);
   std::string history, history_text;
   if (subject.pixel) {
     const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);
@@ -197,7 +208,7 @@ DiagnosisAnswer diagnose_here(Subject& subject, const Watch& watch) {
   if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
   if (subject.page) {
     report::write_diagnosis_page(*subject.page, scene, diagnosis, pictured(scene, *candidate, references),
-                                 open + faults + history_text);
+                                 open + holes + faults + history_text);
     out += fmt::format("page: {}\n", (std::filesystem::absolute(o.report) / "index.html").lexically_normal().string());
   }
   const bool of_conventions_alone = holds(diagnosis) && !mistaken(candidate->info().conventions).empty();

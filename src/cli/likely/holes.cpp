@@ -1,0 +1,50 @@
+#include "cli/likely/holes.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "capture/by_conventions.h"
+#include "cli/likely/known_faults.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+constexpr float kCodes = 1.5f;  // of 8 bits
+
+// Whether the pixel has the clear colour and, where depths are known, the clear depth within a code of 16 bits.
+bool is_cleared(const FrameFormat& format, const ColorAndDepth& frame, std::size_t i) {
+  const bool has_clear_depth =
+      frame.depth.empty() || std::abs(frame.depth.values()[i] - format.clear_depth) <= 1.0 / 65535;
+  return has_clear_depth && !colors_apart(format.clear_color, frame.color.values()[i], kCodes);
+}
+
+}  // namespace
+
+std::string holes_text(const Scene& scene, const GivenFrame& given) {
+  if (scene.frame.antialias.kind != Antialias::Kind::none) return "";
+  const SceneByConventions seen(scene, given.conventions);
+  const ColorAndDepth ours = draw_with({}, *seen, given.conventions);
+  if (ours.color.size() != given.color.size()) return "";
+  const bool knows_legal = given.is_legal.size() == given.color.size();
+  std::size_t wrong = 0, holes = 0, drawn = 0;
+  for (std::size_t i = 0; i < given.color.size(); ++i) {
+    const bool is_wrong = knows_legal ? given.is_legal.values()[i] == 0
+                                      : colors_apart(ours.color.values()[i], given.color.values()[i], kCodes);
+    if (!is_wrong) continue;
+    ++wrong;
+    const bool is = is_cleared(seen->frame, given, i), expected = is_cleared(seen->frame, ours, i);
+    holes += is && !expected;
+    drawn += !is && expected;
+  }
+  if (wrong == 0 || 2 * (holes + drawn) < wrong) return "";
+  return fmt::format(
+      "of {} wrong pixels, {} are as cleared where a surface is to be seen, {} show one where none is: coverage, or "
+      "what "
+      "is clipped or culled before it\n",
+      wrong, holes, drawn);
+}
+
+}  // namespace plumbline::cli
