@@ -134,7 +134,7 @@ struct ConventionWords {
 template <class Visit>
 void each_choice(Visit visit) {
   using C = Conventions;
-  visit(ConventionWords{"rows", "the order of the picture's rows", false}, &C::rows);
+  visit(ConventionWords{"rows", "the order of the picture's rows, or y turned round", false}, &C::rows);
   visit(ConventionWords{"subpixel_rounding", "how window positions are snapped", true}, &C::subpixel_rounding);
   visit(ConventionWords{"tie_rule", "edges that own a sample on them", true}, &C::tie_rule);
   visit(ConventionWords{"depth_range", "depths that are left, from the near plane to the far one", false},

@@ -82,7 +82,8 @@ TEST(Conventions, OnlyMistakesAreNamed) {
   const std::vector<std::string> lines = mistaken(wrong);
   ASSERT_EQ(lines.size(), 7u);
   EXPECT_EQ(lines[0], "convention sample: 0, 0, expected 0.5, 0.5 (the sample's place in its pixel)");
-  EXPECT_EQ(lines[1], "convention rows: from_top, expected from_bottom (the order of the picture's rows)");
+  EXPECT_EQ(lines[1],
+            "convention rows: from_top, expected from_bottom (the order of the picture's rows, or y turned round)");
   EXPECT_EQ(lines[4], "convention subpixel_bits: 3, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)");
   EXPECT_EQ(lines[5],
             "convention offset_unit: 1, 0.5, expected 1 or more: a unit makes depths differ (OpenGL 2.1, 3.5.5)");

@@ -44,7 +44,7 @@ TEST_F(Cli, diagnose_of_a_folder_judges_what_is_in_it) {
   const Outcome bad = plumb("diagnose " + on_centres + " --against exact --capture " + at("bad"));
   EXPECT_EQ(bad.code, 1) << bad.text;
   EXPECT_TRUE(bad.says("wrong by itself: coverage\n"));
-  EXPECT_TRUE(bad.says("first different stage: none; legal, but not by the dialect's tie rule: coverage\n"))
+  EXPECT_TRUE(bad.says("first different stage: none; legal, but not by the tie rule that is judged by: coverage\n"))
       << bad.text;
   EXPECT_FALSE(bad.says(", repaired")) << "its stages cannot be called";
 }

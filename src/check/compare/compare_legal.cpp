@@ -52,10 +52,12 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
 }
 
 // `half_code`: added to the oracle's bound for rounding to the frame's format. `at_pixel(meter, x, y)`: more values;
-// true: the pixel's colour is not compared.
-template <class AtPixel>
+// true: the pixel's colour is not compared. `holds(answer, x, y)`: whether the answer holds for the pixel's other planes;
+// where one does, no other counts.
+template <class AtPixel, class Holds>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
-                                double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel) {
+                                double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel,
+                                const Holds& holds) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
@@ -87,7 +89,9 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
       }
       return;
     }
-    const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, farthest);
+    const bool one_holds = std::ranges::any_of(answers, [&](const LegalAnswer& a) { return holds(a, x, y); });
+    const auto distance = [&](const LegalAnswer& a) { return one_holds && !holds(a, x, y) ? kInfinite : farthest(a); };
+    const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, distance);
     if (!std::isfinite(nearest.color_bound) && legal.at(x, y).size() == 1) meter.ambiguous();  // any colour is legal
     for (int i = 0; i < 4; ++i) {
       meter.value(apart(nearest, i), factor, {x, y, nearest.primitive, "color"}, c[i], wanted(nearest, i));
@@ -122,7 +126,8 @@ Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, do
     for (int i = 0; i < 4; ++i) finite_value(meter, candidate.shaded(x, y)[i], {x, y, kBackground, "color"});
     return true;
   };
-  return compare_legal_color(candidate.shaded, candidate, legal, 0, {Conventions{}, 0}, factor, has_no_winner);
+  const auto holds = [](const LegalAnswer&, int, int) { return true; };
+  return compare_legal_color(candidate.shaded, candidate, legal, 0, {Conventions{}, 0}, factor, has_no_winner, holds);
 }
 
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
@@ -152,8 +157,17 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
       }
     });
   }
+  // The colour and the depth are of one answer. (Where winners are shown, there is but one.)
+  const bool has_depth =
+      candidate.depth.width() == legal.certain.width() && candidate.depth.size() == legal.certain.size();
+  const double steps = tolerance(Profile::oracle, Stage::depth).factor;
+  const auto has_its_depth = [&](const LegalAnswer& a, int x, int y) {
+    if (!has_depth) return true;
+    const double z = candidate.depth(x, y);
+    return outside(z, a.z_lo, a.z_hi) / depth_step(scene.frame.depth, z) <= steps;
+  };
   return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, stored, factor,
-                             clear_depth);
+                             clear_depth, has_its_depth);
 }
 
 }  // namespace plumbline::check

@@ -101,6 +101,8 @@ void compare_shown(const Case& c, const Capture& theirs, Stage stage, const Judg
       if (!is_plain(c.scene)) return c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
       return add(compare_shaded_planes(c.scene, c.candidate, theirs, factor_of(stage)));
     case Stage::texture: {
+      if (c.candidate.planes.texel.empty())
+        return c.skip(name, stage, Outcome::unsupported, "it shows no planes.texel; exact judges texture.color");
       if (theirs.planes.texel.empty()) {
         return c.skip(name, stage, Outcome::unsupported, "where alpha is tested, its texels are not drawn alone");
       }

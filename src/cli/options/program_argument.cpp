@@ -204,10 +204,11 @@ std::string convention_notes(const std::string& file) {
   if (!conventions.open.empty())
     out += fmt::format("open in {}, and judged as OpenGL's: {}\n", file, fmt::join(conventions.open, ", "));
   if (!settles_ties(conventions))
-    out += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
-                       conventions.tie_rule == Conventions::TieRule::any
-                           ? "no tie rule is declared: plumb learn"
-                           : "no grid is declared on which corners are snapped to the nearest place");
+    out += fmt::format(
+        "not judged: which triangle owns a sample on an edge ({})\n",
+        conventions.tie_rule == Conventions::TieRule::any
+            ? "no tie rule is declared: plumb learn"
+            : "a rule is settled by subpixel_bits 1 to 10, subpixel_rounding nearest and a sample on that grid alone");
   return out;
 }
 

@@ -46,7 +46,7 @@ std::string_view remark_on(const check::Diagnosis& diagnosis) {
 
 std::string first_line(const check::Diagnosis& diagnosis) {
   if (!diagnosis.first && !diagnosis.wrong.empty()) {
-    return fmt::format("none; legal, but not by the dialect's tie rule: {}", stage_names(diagnosis.wrong));
+    return fmt::format("none; legal, but not by the tie rule that is judged by: {}", stage_names(diagnosis.wrong));
   }
   if (!diagnosis.first) return "none";
   std::vector<std::string> by;

@@ -102,6 +102,10 @@ TEST_F(LegalAnswers, WithoutWinnersAnyOfThemIsLegal) {
   EXPECT_EQ(depth().worst.reference, 0.25) << "the number that was expected";
   planes.depth(kX, kY) = 0.25;
   planes.color(kX, kY) = glm::vec4(1, 0.5, 0, 1);
+  EXPECT_TRUE(passes(depth()));
+  EXPECT_TRUE(fails(merge())) << "the depth of one, the colour of the other";
+  planes.depth(kX, kY) = 0.75;
+  EXPECT_TRUE(passes(merge()));
   planes.depth(0, 0) = 0.25;
   EXPECT_TRUE(passes(depth())) << "what it was cleared to is merge's matter";
   EXPECT_TRUE(fails(merge())) << "legal elsewhere";
