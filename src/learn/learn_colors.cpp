@@ -81,12 +81,14 @@ Fit best_fit(const Plane<glm::vec4>& color) {
   return best;
 }
 
-// Explanation of colours by codes that are made of more bits, or of 256 c, and then truncated; empty: they are not.
-std::string said_of_powers_of_two(const Plane<glm::vec4>& color) {
+// Explanation of colours by another way to make codes that people know; empty: it is none of these.
+std::string said_of_other_codes(const Plane<glm::vec4>& color) {
   const std::pair<const char*, double (*)(double)> kRules[] = {
       {"256 c, truncated, and at most 255", [](double c) { return std::min(255.0, std::floor(256 * c)); }},
       {"4095 c in 12 bits, truncated, whose last 4 bits are dropped (c * 4095 >> 4); 255 c + 0.5, truncated, is right",
-       [](double c) { return std::floor(std::floor(4095 * c) / 16); }}};
+       [](double c) { return std::floor(std::floor(4095 * c) / 16); }},
+      {"of c to the power 1/2.2, a gamma; OpenGL's colours are linear",
+       [](double c) { return std::nearbyint(255 * std::pow(c, 1 / 2.2)); }}};
   for (const auto& [says, code_of] : kRules) {
     std::size_t fits = 0;
     for (int i = 0; i < kAll; ++i) {
@@ -97,6 +99,19 @@ std::string said_of_powers_of_two(const Plane<glm::vec4>& color) {
   }
   return "";
 }
+
+// How far colours are from linear ones at most [codes].
+double largest_error(const Plane<glm::vec4>& color) {
+  double most = 0;
+  for (int i = 0; i < kAll; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double is = pixel_of(color, i)[k], expected = between_codes(i)[k];
+      most = farther(most, 255 * (is - expected));
+    }
+  }
+  return most;
+}
+constexpr double kFewCodes = 4;
 
 }  // namespace
 
@@ -110,7 +125,8 @@ void learn_colors(Prober& prober) {
   const std::string evidence = fmt::format("{} of {} colours", fit.most, kColors);
   if (!fit.explains()) {
     prober.fits_none(rounding,
-                     evidence + " at most are explained by one rounding and encoding" + said_of_powers_of_two(color));
+                     evidence + " at most are explained by one rounding and encoding" + said_of_other_codes(color));
+    prober.are_linear = largest_error(color) < kFewCodes;
     return prober.open(encoding, "the rounding is open");
   }
   if (fit.order != std::array{0, 1, 2}) {
@@ -141,6 +157,7 @@ void learn_alpha_test(Prober& prober) {
 // of the exact blend over the codes that the first layer left.
 void learn_blending(Prober& prober) {
   const ConventionWords words = words_of("blending");
+  if (!prober.are_linear) return prober.open(words, kNotLinear);
   const auto code_under = [](int i) { return (i * 37) % 255; };
   const auto under = [&](int i) { return (static_cast<float>(code_under(i)) + 0.3f) / 255; };  // rounded either way
   const auto over = [](int i) { return static_cast<float>((i * 91 + 40) % 256) / 255; };

@@ -320,8 +320,8 @@ void learn_depth_arithmetic(Prober& prober) {
     if (prober.is_open(name)) return prober.open(words, fmt::format("{} is open", name));
   }
   constexpr int kFinest = 10;  // places at multiples of 2^-10 pixel are exact (probe_scene.h)
-  const bool are_snapped = c.attribute_corners == C::Corners::snapped && c.subpixel_bits != C::kFloat;
-  const int bits = are_snapped ? std::min(c.subpixel_bits, kFinest) : kFinest;
+  // Corners on the grid are where they are, snapped or not.
+  const int bits = c.subpixel_bits == C::kFloat ? kFinest : std::min(c.subpixel_bits, kFinest);
   Interpolated of;
   if (!count(prober, 64, large_and_near(), of) || !count(prober, 512, small_and_far(bits), of))
     return prober.open(words, "it leaves no planes.depth");

@@ -50,6 +50,7 @@ Texture texture_of(int size, auto code) {
 
 void learn_weights(Prober& prober) {
   const ConventionWords words = words_of("texture_bits");
+  if (!prober.are_linear) return prober.open(words, kNotLinear);
   const auto code = [](int x, int y) { return (x * 83 + y * 151 + 11) % 256; };
   Texture texture = texture_of(4, code);
   texture.sampler.min = MinFilter::linear, texture.sampler.mag = MagFilter::linear;
@@ -172,6 +173,7 @@ Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample) {
 
 void learn_levels(Prober& prober) {
   C& c = prober.learned.conventions;
+  if (!prober.are_linear) return prober.open(words_of("level_of_detail"), kNotLinear);
   const Levels levels = levels_of(prober.draw(floor_scene()).color, c.sample);
   using enum C::LevelOfDetail;
   const bool one_each = levels.squares > 0 && levels.alike * 10 >= levels.squares * 9;
@@ -207,6 +209,7 @@ void learn_magnification(Prober& prober) {
 
 void learn_half_way(Prober& prober) {
   const ConventionWords words = words_of("half_way_level");
+  if (!prober.are_linear) return prober.open(words, kNotLinear);
   std::array<double, 3> levels{};
   for (int i = 0; i < 3; ++i) {
     Texture texture = texture_of(64, [](int, int) { return 0; });

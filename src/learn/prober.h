@@ -54,11 +54,15 @@ class Prober {
   Learned learned;
   /// Depth function of all draws of the probes. Where draws lie over each other, the later one is the nearer.
   DepthFunc depth_func = DepthFunc::always;
+  /// False: colours are codes away from linear ones, by no known encoding. What they are mixed of then shows no more.
+  bool are_linear = true;
 
  private:
   Capture captured(const Scene& probe);  // names the probe where the renderer fails
   Renderer& renderer_;
 };
+
+inline constexpr const char* kNotLinear = "colours are encoded in no known way";
 
 /// The larger of `most` and |off|, where NaN is infinite.
 inline double farther(double most, double off) {

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <fmt/ranges.h>
 #include "capture/files/conventions_file.h"
+
 #include "tests/learn/altered_renderers.h"
 
 namespace plumbline::learn {
@@ -53,23 +55,33 @@ TEST(LearnCourses, AStrayPixelMovesNoPicture) {
   EXPECT_FALSE(is_said(learn(renderer).conventions, "shifted"));
 }
 
-TEST(LearnCourses, CodesOf12BitsAndOf256AreNamed) {
-  const auto said = [](double (*code_of)(double), const std::string& text) {
-    OfAlteredScenes renderer;
-    renderer.before = [](Scene& scene) { scene.frame.color = ColorFormat::rgba32f; };
-    renderer.after = [=](const Scene&, Capture& capture) {
-      for (glm::vec4& color : capture.planes.color.values()) {
-        for (int k = 0; k < 4; ++k) color[k] = static_cast<float>(code_of(static_cast<double>(color[k])) / 255);
-      }
-    };
-    return is_said(learn(renderer).conventions, text);
+// Of a renderer that makes codes of linear colours in its own way.
+C learned_of_codes(double (*code_of)(double)) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) { scene.frame.color = ColorFormat::rgba32f; };
+  renderer.after = [=](const Scene&, Capture& capture) {
+    for (glm::vec4& color : capture.planes.color.values()) {
+      for (int k = 0; k < 4; ++k) color[k] = static_cast<float>(code_of(static_cast<double>(color[k])) / 255);
+    }
   };
-  const auto of_12_bits = [](double c) { return std::floor(std::floor(4095 * c) / 16); };
-  const auto of_256 = [](double c) { return std::min(255.0, std::floor(256 * c)); };
-  const auto right = [](double c) { return std::round(255 * c); };
-  EXPECT_TRUE(said(of_12_bits, "4095 c in 12 bits"));
-  EXPECT_TRUE(said(of_256, "256 c, truncated"));
-  EXPECT_FALSE(said(right, "color_rounding"));
+  return learn(renderer).conventions;
+}
+
+TEST(LearnCourses, CodesOf12BitsAndOf256AreNamed) {
+  const C of_12_bits = learned_of_codes([](double c) { return std::floor(std::floor(4095 * c) / 16); });
+  const C of_256 = learned_of_codes([](double c) { return std::min(255.0, std::floor(256 * c)); });
+  EXPECT_TRUE(is_said(of_12_bits, "4095 c in 12 bits"));
+  EXPECT_TRUE(is_said(of_256, "256 c, truncated"));
+  EXPECT_EQ(std::ranges::count(of_256.open, "texture_bits"), 0) << "a code off, the rest still shows";
+  EXPECT_FALSE(is_said(learned_of_codes([](double c) { return std::round(255 * c); }), "color_rounding"));
+}
+
+TEST(LearnCourses, AGammaIsNamedAndNothingElseMistakenForIt) {
+  const C gamma = learned_of_codes([](double c) { return std::round(255 * std::pow(c, 1 / 2.2)); });
+  EXPECT_TRUE(is_said(gamma, "c to the power 1/2.2, a gamma"));
+  EXPECT_EQ(gamma.unexplained.size(), 1u) << fmt::format("{}", fmt::join(gamma.unexplained, "\n"));
+  for (const char* name : {"blending", "texture_bits", "level_of_detail", "half_way_level"})
+    EXPECT_EQ(std::ranges::count(gamma.open, name), 1) << name;
 }
 
 // Fails on the probes of these names.
