@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/atomic_path.h"
 #include "capture/files/image_file.h"
 #include "tests/cli/run_plumb.h"
 

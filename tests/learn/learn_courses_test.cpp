@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <fmt/ranges.h>
-#include "capture/files/conventions_file.h"
 
+#include "capture/files/conventions_file.h"
 #include "tests/learn/altered_renderers.h"
 
 namespace plumbline::learn {
