@@ -177,6 +177,38 @@ void take_far_border(double& sample, double& shift) {
   if (sample == 0 && shift == -1) sample = 1, shift = 0;
 }
 
+// The sample of a renderer whose corners lie on whole pixels, as its edges do: a sample at a pixel's border may as well
+// be at the opposite one, with the other side's tie rule. Pixels along a diagonal tell which, but for those whose
+// samples lie on an edge.
+glm::dvec2 sample_by_diagonal(Prober& prober, glm::dvec2 sample) {
+  constexpr int kSize = 16, kLow = 2, kHigh = 13;
+  Scene scene = probe_frame("diagonal", kSize, kSize);
+  const std::array<ProbeCorner, 3> triangle = {{{{kLow, kLow, 0.5}}, {{kHigh, kLow, 0.5}}, {{kLow, kHigh, 0.5}}}};
+  add_triangles(scene, std::span(&triangle, 1));
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  const auto is_off = [](double v) { return v == 0 || v == 1; };
+  const auto wrong_by = [&](const glm::dvec2& at) {
+    int wrong = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const glm::dvec2 p = glm::dvec2(x, y) + at - static_cast<double>(kLow);
+        const double inside = std::min({p.x, p.y, kHigh - kLow - p.x - p.y});  // 0 on an edge
+        if (inside != 0) wrong += is_white(color(x, y)) != (inside > 0);
+      }
+    }
+    return wrong;
+  };
+  glm::dvec2 best = sample;
+  for (const bool other_x : {false, true}) {
+    for (const bool other_y : {false, true}) {
+      if ((other_x && !is_off(sample.x)) || (other_y && !is_off(sample.y))) continue;
+      const glm::dvec2 at(other_x ? 1 - sample.x : sample.x, other_y ? 1 - sample.y : sample.y);
+      if (wrong_by(at) < wrong_by(best)) best = at;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 void learn_grid(Prober& prober) {
@@ -217,6 +249,7 @@ void learn_grid(Prober& prober) {
   const bool in_pixel = glm::clamp(sample, 0.0, 1.0) == sample;
   glm::dvec2 shift = rows->bits == 0 || rows->bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
   for (const int axis : {0, 1}) take_far_border(sample[axis], shift[axis]);
+  if (in_pixel && rows->bits == 0) sample = sample_by_diagonal(prober, sample);
   if (!in_pixel || shift != glm::dvec2(0)) {
     prober.unexplained(fmt::format("{}: the sample is at {}, and the picture is shifted by {:.0f}, {:.0f} pixels",
                                    in_pixel ? "the picture is shifted" : "a sample lies outside its pixel",

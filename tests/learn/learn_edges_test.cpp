@@ -55,6 +55,36 @@ TEST(LearnEdges, AGridOfWholePixelsIsFoundWithItsRounding) {
                                   [](const std::string& says) { return says.find("one grid in x") != says.npos; }));
 }
 
+// Integers as corners and as samples, as scan converters of courses have them: y up, and y down with rows from the top,
+// whose samples are their pixels' upper left corners.
+TEST(LearnEdges, ASampleAtAWholePixelsBorderIsFound) {
+  for (const bool is_down : {false, true}) {
+    OfAlteredScenes renderer;
+    renderer.before = [=](Scene& scene) {
+      for (Mesh& mesh : scene.meshes) {
+        for (glm::vec3& p : mesh.positions) {
+          const float y = is_down ? static_cast<float>(scene.frame.height) - p.y : p.y;
+          p.x = std::nearbyint(p.x), p.y = std::nearbyint(y);
+        }
+      }
+      scene.frame.pass.shift += 0.5;
+    };
+    renderer.after = [=](const Scene&, Capture& c) {
+      const Planes was = c.planes;
+      for (int y = 0; is_down && y < c.height; ++y) {
+        for (int x = 0; x < c.width; ++x) {
+          c.planes.color(x, y) = was.color(x, c.height - 1 - y);
+          c.planes.depth(x, y) = was.depth(x, c.height - 1 - y);
+        }
+      }
+    };
+    const C found = learn(renderer).conventions;
+    EXPECT_EQ(found.subpixel_bits, 0);
+    EXPECT_EQ(found.sample, glm::dvec2(0, is_down ? 1 : 0)) << conventions_text(found);
+    EXPECT_EQ(found.tie_rule, is_down ? C::TieRule::left_top : C::TieRule::left_bottom);
+  }
+}
+
 TEST(LearnEdges, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
   constexpr double kReach = 2.0 / 256;
   const auto plain = pipeline::make_pipeline();
