@@ -101,7 +101,8 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
 
 }  // namespace
 
-Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
+Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
+                                bool has_codes) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("step", why, candidate.depth.size());
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
@@ -115,7 +116,11 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
     }
     const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, apart);
     const double expected = std::isnan(z) ? nearest.z_lo : std::clamp(z, nearest.z_lo, nearest.z_hi);
-    meter.value(apart(nearest), factor, {x, y, nearest.primitive, "z"}, z, expected);
+    const double codes = has_codes ? z * depth_scale(scene.frame.depth) : 0;
+    constexpr double kRoundings = 1e-6;  // of a code that was computed in double [step]
+    const bool is_code = std::abs(codes - std::nearbyint(codes)) <= kRoundings;
+    meter.value(is_code ? apart(nearest) : std::max(apart(nearest), 2 * factor), factor,
+                {x, y, nearest.primitive, is_code ? "z" : "z, no code of the format,"}, z, expected);
   });
 }
 

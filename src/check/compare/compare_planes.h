@@ -48,11 +48,12 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
 /// Against legal answers; a pixel with several answers counts as ambiguous. The answer that has the pixel's own winner
 /// bounds depth (by `factor` steps of the format) and colour (by `factor` times its bound). Where no answer has that
 /// winner, visibility reports the pixel, and depth and colour need only be finite. Where the candidate shows no
-/// winners, the nearest answer counts. Where only the cleared frame is legal, merge judges the depth if a colour plane
-/// is there.
+/// winners, the nearest answer counts, for colour of those that have the pixel's depth. Where only the cleared frame is
+/// legal, merge judges the depth if a colour plane is there. `has_codes`: each depth must be a code of the format.
 Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
-Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);
+Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
+                                bool has_codes = false);
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor);
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
                                 const Conventions& conventions = {});

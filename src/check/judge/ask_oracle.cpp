@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -30,6 +31,13 @@ std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
       twice);
 }
 
+// Whether the candidate declares that its depths are codes of the scene's format.
+bool declares_codes(const Case& c) {
+  const Conventions& d = c.conventions;
+  const bool is_open = std::ranges::find(d.open, "depth_format") != d.open.end();
+  return c.foreign && !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open;
+}
+
 }  // namespace
 
 void ask_oracle(const Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
@@ -41,7 +49,8 @@ void ask_oracle(const Case& c, const Legal& legal, Stage stage, const JudgeId& n
   switch (stage) {
     case Stage::coverage:
       return c.add(name, stage, compare_legal_count(planes, legal), nullptr, cracks_note(planes.count, legal));
-    case Stage::depth: return add([&](double f) { return compare_legal_depth(c.scene, planes, legal, f); });
+    case Stage::depth:
+      return add([&](double f) { return compare_legal_depth(c.scene, planes, legal, f, declares_codes(c)); });
     case Stage::attributes:
     case Stage::shade: return add([&](double f) { return compare_legal_shaded(planes, legal, f); }, Stage::attributes);
     case Stage::visibility: {

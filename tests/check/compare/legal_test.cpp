@@ -85,6 +85,18 @@ TEST_F(LegalAnswers, OtherSizesFail) {
   for (const Measurement& m : all()) EXPECT_FALSE(passes(m)) << "an oracle that says nothing";
 }
 
+TEST_F(LegalAnswers, ADepthIsACodeWhereCodesAreDeclared) {
+  scene.frame.depth = DepthFormat::z16;
+  show(2, 16384 / 65535.0, planes.color(kX, kY));
+  const auto declared = [&] { return compare_legal_depth(scene, planes, legal, 1, true); };
+  EXPECT_TRUE(passes(declared()));
+  planes.depth(kX, kY) = 16384.3 / 65535;
+  EXPECT_TRUE(passes(depth()));
+  EXPECT_TRUE(fails(declared())) << "of 24 bits";
+  planes.depth(kX, kY) = NAN;
+  EXPECT_TRUE(fails(declared()));
+}
+
 TEST_F(LegalAnswers, WithoutWinnersAnyOfThemIsLegal) {
   planes.id = {};
   EXPECT_FALSE(passes(winner())) << "there is none";
