@@ -105,7 +105,7 @@ constexpr auto kAbsoluteCosine = [](LitPoint& at, const LightModel&) {
   if (pipeline::dot(at.n_eye, towards(at)) < 0) at.n_eye = -at.n_eye;
 };
 
-// Of a point light. How far it reaches, and its cone, are as they are.
+// Vector to a point light at its full length; the light's reach and cone are as they are.
 constexpr auto kLongVector = [](LitPoint& at, const LightModel&) {
   if (at.light.directional) return;
   const Vec3<float> vector = towards(at);

@@ -94,7 +94,7 @@ FilteredTexel<float> one_level(const TextureSetup& t, const TexCoords<float>& at
   return out;
 }
 
-// Of a linear filter of the base level, the place between four texels' centres with its coordinates exchanged.
+// Place between four texels' centres, its coordinates exchanged, for a linear filter of the base level.
 FilteredTexel<float> weights_exchanged(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   const FilteredTexel<float> right = pipeline::texture<float>(t, at, g);
   const bool magnified = right.lod <= t.c;

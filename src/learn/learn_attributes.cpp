@@ -54,7 +54,7 @@ void learn_clipping(Prober& prober) {
   // At depths of -0.5 and -0.25.
   const bool is_clamped = near_cut || left.depth.empty() ||
                           std::abs(left.depth(0, kFrameSize / 2) - left.depth(kFrameSize / 8, kFrameSize / 2)) < 1e-3;
-  // At depths of 0.25 and 0.75. A triangle of one depth is not clamped.
+  // Pixels at depths 0.25 and 0.75 differ, unless the triangle has one depth, which is not clamped.
   const bool varies =
       near_cut || left.depth.empty() ||
       std::abs(left.depth(3 * kFrameSize / 8, kFrameSize / 2) - left.depth(5 * kFrameSize / 8, kFrameSize / 2)) > 0.4;

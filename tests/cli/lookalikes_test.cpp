@@ -64,7 +64,7 @@ TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
   }
 }
 
-// Of dark colours, gamma 1/2.2 and sRGB are more than a code apart.
+// Gamma 1/2.2 and sRGB are more than a code apart in dark colours.
 TEST(Lookalikes, know_arrays_and_encodings_that_a_file_may_hold) {
   const Scene square = scene_of("depth/ties_less.json"), ramp = scene_of("interpolation/w_ratio.json");
   ASSERT_EQ(square.frame.width, square.frame.height);

@@ -49,7 +49,7 @@ TEST_F(Campaign, OfAProgramTellsFailuresApartAndNotCommands) {
   }
 }
 
-// Its words about each scene, and about scenes before, do not.
+// Words about each scene, and about scenes before, tell no failures apart.
 TEST_F(Campaign, OfAProgramTellsFailuresApartByTheLastLineOfItsStderr) {
   write(folder_ / "mine.sh",
         "echo \"drawing $(cksum <\"$1/manifest.json\" | tr 0-9 a-j)\" >&2\n"

@@ -55,7 +55,7 @@ TEST(LearnCourses, AStrayPixelMovesNoPicture) {
   EXPECT_FALSE(is_said(learn(renderer).conventions, "shifted"));
 }
 
-// Of a renderer that makes codes of linear colours in its own way.
+// Conventions learned of a renderer that makes codes of linear colours in its own way.
 C learned_of_codes(double (*code_of)(double)) {
   OfAlteredScenes renderer;
   renderer.before = [](Scene& scene) { scene.frame.color = ColorFormat::rgba32f; };

@@ -125,7 +125,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
 }
 
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
-  // Where only the background is legal, no fragment has a colour; merge judges the clear colour.
+  // No fragment has a colour where only the background is legal; merge judges the clear colour.
   const auto has_no_winner = [&](Meter& meter, int x, int y) {
     if (candidate.color.empty() || !is_cleared(held_to(legal, candidate, x, y))) return false;
     for (int i = 0; i < 4; ++i) finite_value(meter, candidate.shaded(x, y)[i], {x, y, kBackground, "color"});

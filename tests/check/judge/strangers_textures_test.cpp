@@ -41,7 +41,7 @@ void lose_levels(Capture& candidate) {
   for (Texel<double>& texel : candidate.records.texels) texel.lod = kNaN;
 }
 
-// With levels of detail, and without; by the declared convention, and by OpenGL's.
+// The candidate with its levels of detail, and without, by the declared convention and by OpenGL's.
 void expect_right_if_declared(const Scene& scene, Capture candidate, const C& declared) {
   SCOPED_TRACE(scene.name);
   EXPECT_EQ(row(scene, candidate, Stage::texture, C()).outcome, Outcome::different);
