@@ -29,8 +29,9 @@ Texel<double> texel_at(const TexturedTriangle& t, glm::dvec2 st, int x, int y, c
 
 /// Stage 8, from records.triangles, covered and varyings. Sets out.records.texels: the LOD from the triangles, the
 /// colour at the recorded texture coordinates and, where texels are recorded, at their recorded LOD. Sets
-/// out.legal.texels: the range over the LODs that the conventions allow at the four pixels of the fragment's 2 x 2 quad. Sets
-/// nothing if no draw has a texture. Throws std::invalid_argument where the records do not fit the scene or each other.
+/// out.legal.texels: the range over the LODs that the conventions allow at the four pixels of the fragment's 2 x 2
+/// quad. Sets nothing if no draw has a texture. Throws std::invalid_argument where the records do not fit the scene or
+/// each other.
 void filter_texels(const Scene& scene, const Records<double>& records, const Conventions& conventions, Capture& out);
 
 }  // namespace plumbline::exact

@@ -196,11 +196,12 @@ struct WindowTriangle {
   std::uint32_t width = 1;    ///< pixels: of a line, or the side of a point's square
 };
 
-// 5. Each triangle covers the pixels whose centres are inside its snapped edges, or on an edge that tie rule left_bottom
-//    gives to it: one whose interior lies to its right (+x), or, if it is horizontal, above (+y). A line covers those that the diamond-exit rule names, a point the one that it lies in (OpenGL 2.1,
-//    sections 3.4.1 and 3.3). A wide line is moved by (width - 1) / 2 down its minor axis, and each of its pixels is
-//    one of `width` in a column (y-major: a row); a wide point is the square of pixels about the centre (odd) or
-//    corner (even) of pixels that is nearest (3.4.2, 3.3).
+// 5. Each triangle covers the pixels whose centres are inside its snapped edges, or on an edge that rule left_bottom
+//    gives to it: one whose interior lies to its right (+x), or, if it is horizontal, above (+y). A line covers the
+//    pixels that the diamond-exit rule names, a point the pixel that it lies in (OpenGL 2.1, sections 3.4.1 and 3.3). A
+//    wide line is moved by (width - 1) / 2 down its minor axis, and each of its pixels is one of `width` in a column
+//    (y-major: a row); a wide point is the square of pixels about the centre (odd) or corner (even) of pixels that is
+//    nearest (3.4.2, 3.3).
 struct Covered {
   std::uint32_t triangle;  ///< index into the window triangles
   std::uint16_t x, y;      ///< pixel

@@ -52,8 +52,8 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
 }
 
 // `half_code`: added to the oracle's bound for rounding to the frame's format. `at_pixel(meter, x, y)`: more values;
-// true: the pixel's colour is not compared. `holds(answer, x, y)`: whether the answer holds for the pixel's other planes;
-// where one does, no other counts.
+// true: the pixel's colour is not compared. `holds(answer, x, y)`: whether the pixel's other planes are the answer's;
+// where one's are, no other answer counts.
 template <class AtPixel, class Holds>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
                                 double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel,
