@@ -92,7 +92,9 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
     const bool one_holds = std::ranges::any_of(answers, [&](const LegalAnswer& a) { return holds(a, x, y); });
     const auto distance = [&](const LegalAnswer& a) { return one_holds && !holds(a, x, y) ? kInfinite : farthest(a); };
     const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, distance);
-    if (!std::isfinite(nearest.color_bound) && legal.at(x, y).size() == 1) meter.ambiguous();  // any colour is legal
+    // Any colour is legal. (Those of codes are in [0, 1].)
+    const bool is_any = stored.scale > 0 ? !(nearest.color_bound < 1) : !std::isfinite(nearest.color_bound);
+    if (is_any && legal.at(x, y).size() == 1) meter.ambiguous();
     for (int i = 0; i < 4; ++i) {
       meter.value(apart(nearest, i), factor, {x, y, nearest.primitive, "color"}, c[i], wanted(nearest, i));
     }

@@ -85,6 +85,18 @@ TEST_F(LegalAnswers, OtherSizesFail) {
   for (const Measurement& m : all()) EXPECT_FALSE(passes(m)) << "an oracle that says nothing";
 }
 
+// Bounds of colours that overflow float may be finite, and larger than all that codes hold.
+TEST_F(LegalAnswers, AnyColourOfCodesIsAmbiguousUnderABoundOfAll) {
+  forbid();
+  legal.answers.insert(legal.answers.begin() + 8, {2, 5, 0.25, 0.3125, {0.5, 0.25, 0.125, 1}});
+  for (std::size_t i = 9; i < legal.first.size(); ++i) ++legal.first[i];
+  show(2, 0.25, {1, 0, 1, 1});
+  EXPECT_TRUE(passes(merge()));
+  EXPECT_EQ(merge().ambiguous, 1u);
+  scene.frame.color = ColorFormat::rgba32f;
+  EXPECT_EQ(merge().ambiguous, 0u) << "a float may be farther off";
+}
+
 TEST_F(LegalAnswers, ADepthIsACodeWhereCodesAreDeclared) {
   scene.frame.depth = DepthFormat::z16;
   show(2, 16384 / 65535.0, planes.color(kX, kY));
