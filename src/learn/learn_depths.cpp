@@ -320,8 +320,9 @@ void learn_depth_arithmetic(Prober& prober) {
     if (prober.is_open(name)) return prober.open(words, fmt::format("{} is open", name));
   }
   constexpr int kFinest = 10;  // places at multiples of 2^-10 pixel are exact (probe_scene.h)
-  // Corners on the grid are where they are, snapped or not.
-  const int bits = c.subpixel_bits == C::kFloat ? kFinest : std::min(c.subpixel_bits, kFinest);
+  // Corners on the grid are where they are, snapped or not; off it, edge equations in float lose more.
+  const bool may_be_snapped = c.attribute_corners == C::Corners::snapped || prober.is_open("attribute_corners");
+  const int bits = may_be_snapped && c.subpixel_bits != C::kFloat ? std::min(c.subpixel_bits, kFinest) : kFinest;
   Interpolated of;
   if (!count(prober, 64, large_and_near(), of) || !count(prober, 512, small_and_far(bits), of))
     return prober.open(words, "it leaves no planes.depth");
