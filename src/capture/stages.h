@@ -51,7 +51,7 @@ class StageSet {
   std::uint32_t bits_ = 0;
 };
 
-/// What a record of a stage belongs to; of `pixel`, stages hand on planes alone.
+/// Owner of a record of a stage. Stages of pixels hand on planes alone.
 enum class Per { draw, vertex, polygon, triangle, fragment, pixel };
 
 struct StageRow {

@@ -11,10 +11,7 @@ Recorder::Recorder(const Scene& scene, const Request& request, std::size_t bytes
       bytes_(bytes),
       depth_scale_(depth_scale(scene.frame.depth)),
       carried_(carried(scene)) {
-  for (const Stage stage :
-       {Stage::coverage, Stage::depth, Stage::attributes, Stage::texture, Stage::shade, Stage::visibility}) {
-    keeps_pixels_ |= request.records.has(stage);
-  }
+  for (const Stage stage : kAllStages) keeps_pixels_ |= kFragmentStages.has(stage) && request.records.has(stage);
   const int w = scene.frame.width, h = scene.frame.height;
   if (!request.pixels.empty()) wanted_pixels_ = Plane<std::uint8_t>(w, h);
   for (const glm::ivec2 p : request.pixels) {

@@ -24,7 +24,7 @@ using testing_words::kFormats;
 
 const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
 
-/// What a capture holds of some stages, but for planes.texel and planes.shaded, which no stage run alone fills.
+/// Arrays of some stages in a capture, but for planes.texel and planes.shaded, which no stage run alone fills.
 struct Chosen {
   std::function<bool(Stage)> has;
   void group(Handed group, const auto&, const auto& from, auto& to) const {

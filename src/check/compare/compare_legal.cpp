@@ -122,7 +122,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
     constexpr double kRoundings = 1e-6;  // of a code that was computed in double [step]
     const bool is_code = std::abs(codes - std::nearbyint(codes)) <= kRoundings;
     meter.value(is_code ? apart(nearest) : std::max(apart(nearest), 2 * factor), factor,
-                {x, y, nearest.primitive, is_code ? "z" : "z, no code of the format,"}, z, expected);
+                {x, y, nearest.primitive, is_code ? "z" : "z that is no code"}, z, expected);
   });
 }
 

@@ -45,6 +45,8 @@ bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes, bool by_a
   return !near || (by_alpha && (!(off.w <= most) || std::isnan(b.w)));
 }
 
+bool is_clear_depth(const FrameFormat& format, double z) { return std::abs(z - format.clear_depth) <= 1.0 / 65535; }
+
 FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours)
     : format_(format), given_(given) {
   for (std::size_t look = 0; look < kLooks; ++look) {

@@ -41,6 +41,9 @@ using Apart = std::array<std::size_t, kLooks>;
 /// Whether r, g or b (a, too, if asked), clamped to [0,1], differ by more than `codes` [1/255], or are NaN in b.
 bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes, bool by_alpha = false);
 
+/// Whether a depth is the clear depth, within a code of 16 bits.
+bool is_clear_depth(const FrameFormat& format, double z);
+
 /// Counts the pixels in which a frame differs from the given one, except those that are legal and differ from `ours`.
 class FramesApart {
  public:

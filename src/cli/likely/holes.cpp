@@ -1,6 +1,5 @@
 #include "cli/likely/holes.h"
 
-#include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
@@ -14,10 +13,9 @@ namespace {
 
 constexpr float kCodes = 1.5f;  // of 8 bits
 
-// Whether the pixel has the clear colour and, where depths are known, the clear depth within a code of 16 bits.
+// Whether the pixel has the clear colour and, where depths are known, the clear depth.
 bool is_cleared(const FrameFormat& format, const ColorAndDepth& frame, std::size_t i) {
-  const bool has_clear_depth =
-      frame.depth.empty() || std::abs(frame.depth.values()[i] - format.clear_depth) <= 1.0 / 65535;
+  const bool has_clear_depth = frame.depth.empty() || is_clear_depth(format, frame.depth.values()[i]);
   return has_clear_depth && !colors_apart(format.clear_color, frame.color.values()[i], kCodes);
 }
 

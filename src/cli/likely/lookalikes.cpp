@@ -34,10 +34,8 @@ bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
   return std::ranges::none_of(plane.values(), [&](const glm::vec4& c) { return colors_apart(color, c, 1.5f); });
 }
 
-// Depths are as cleared within a code of 16 bits.
 bool has_clear_depth(const FrameFormat& format, const ColorAndDepth& frame) {
-  return std::ranges::all_of(frame.depth.values(),
-                             [&](double z) { return std::abs(z - format.clear_depth) <= 1.0 / 65535; });
+  return std::ranges::all_of(frame.depth.values(), [&](double z) { return is_clear_depth(format, z); });
 }
 
 // Draws the scene with faults, and counts the pixels that differ. Where the frame's sides cut polygons, the scene is
