@@ -32,8 +32,7 @@ class EmbreeRenderer final : public Renderer {
   }
 
   Capture capture(const Scene& of_dialect, const Request& request) override {
-    if (of_dialect.frame.antialias.kind != Antialias::Kind::none)
-      return math::capture_resolved(*this, of_dialect, request);
+    if (antialiased(of_dialect)) return math::capture_resolved(*this, of_dialect, request);
     const SceneByConventions by_conventions(of_dialect, request.conventions);
     const Scene& scene = *by_conventions;
     if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {

@@ -187,7 +187,7 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
 }
 
 Capture Exact::capture(const Scene& scene, const Request& request) {
-  if (scene.frame.antialias.kind != Antialias::Kind::none) return math::capture_resolved(*this, scene, request);
+  if (antialiased(scene)) return math::capture_resolved(*this, scene, request);
   require_budget(scene, plane_bytes(scene), request.memory_budget);
   Capture out = empty_capture(scene);
   Records<double>& records = out.records;

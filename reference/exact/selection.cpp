@@ -8,7 +8,10 @@
 namespace plumbline::exact {
 
 Selection::Selection(const Scene& scene, const Request& request)
-    : request_(request), textured_(textured(scene)), varyings_(carried(scene)) {
+    : request_(request),
+      textured_(textured(scene)),
+      varyings_(carried(scene)),
+      bytes_(fragment_bytes(scene, request.records)) {
   std::erase_if(varyings_, is_back);
   if (request.pixels.empty()) return;
   const FrameFormat& frame = scene.frame;
@@ -20,14 +23,6 @@ Selection::Selection(const Scene& scene, const Request& request)
 bool Selection::primitive(std::uint32_t number) const {
   const auto& wanted = request_.primitives;
   return wanted.empty() || std::binary_search(wanted.begin(), wanted.end(), number);
-}
-
-std::size_t Selection::bytes_per_fragment() const {
-  const StageSet& stages = request_.records;
-  return (stages.has(Stage::coverage) ? sizeof(Covered) : 0) + (stages.has(Stage::depth) ? sizeof(double) : 0) +
-         (stages.has(Stage::attributes) ? sizeof(Attributes<double>) + varyings_.size() * sizeof(glm::dvec4) : 0) +
-         (stages.has(Stage::texture) && textured_ ? sizeof(Texel<double>) : 0) +
-         (stages.has(Stage::shade) ? sizeof(Shaded<double>) : 0) + (stages.has(Stage::visibility) ? sizeof(Drawn) : 0);
 }
 
 void Selection::add(const Fragment& fragment, Records<double>& out) const {

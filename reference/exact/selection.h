@@ -17,9 +17,9 @@ class Selection {
   /// Whether records of the primitive are requested.
   bool primitive(std::uint32_t number) const;
   /// fragments(): whether records of stages 5 to 10 are requested at all. pixel(): whether those of this pixel are.
-  bool fragments() const { return bytes_per_fragment() > 0; }
+  bool fragments() const { return bytes_ > 0; }
   bool pixel(int x, int y) const { return pixels_.empty() || pixels_(x, y) != 0; }
-  std::size_t bytes_per_fragment() const;
+  std::size_t bytes_per_fragment() const { return bytes_; }
 
   struct Fragment {
     Covered covered;
@@ -44,6 +44,7 @@ class Selection {
   Plane<std::uint8_t> pixels_;  // empty: all
   bool textured_;
   std::vector<Varying> varyings_;  // that fragments carry
+  std::size_t bytes_;              // of one fragment's records
 };
 
 /// Memory of the records of stages 0 to 4 [bytes].

@@ -63,7 +63,7 @@ class OpenGlRenderer final : public Renderer {
 
   Capture capture(const Scene& scene, const Request& request) override {
     require_shown(scene);
-    if (scene.frame.antialias.kind != Antialias::Kind::none) return capture_resolved(scene, request);
+    if (antialiased(scene)) return capture_resolved(scene, request);
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     context_->make_current();
     Capture capture;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -143,18 +144,42 @@ class Columns {
   std::tuple<C...> all_;
 };
 
-/// The name of a group or plane, and the stage that hands it on.
+/// Stage that hands a group or plane on, its name, and what one of its records belongs to.
 struct Handed {
+  constexpr Handed(Stage of, std::string_view named) : Handed(of, named, plumbline::per(of)) {}
+  constexpr Handed(Stage of, std::string_view named, Per owner, std::optional<Varying> v = {})
+      : stage(of), name(named), per(owner), varying(v) {}
   Stage stage;
   std::string_view name;
+  Per per;
+  std::optional<Varying> varying;  ///< whose column the group is
 };
+
+/// Group that holds one record of each owner (others lie beside it), and how many it holds.
+struct Owners {
+  std::string_view group;
+  std::size_t count;
+};
+inline Owners owners_of(const Records<double>& r, Per per) {
+  switch (per) {
+    case Per::light: return {"matrices.light", r.lights.size()};
+    case Per::draw: return {"matrices", r.matrices.size()};
+    case Per::vertex: return {"vertex", r.vertices.size()};
+    case Per::clip_vertex: return {"clip", r.polygons.vertices.size()};
+    case Per::polygon: return {"clip.polygon", r.polygons.polygons.size()};
+    case Per::triangle: return {"window", r.triangles.size()};
+    case Per::fragment: return {"coverage", r.covered.size()};
+    case Per::pixel: break;
+  }
+  return {"", 0};
+}
 
 /// Calls visit.group(handed, columns, records...) and visit.plane(handed, plane...) for all that a capture folder
 /// holds, with the vectors and planes of each of the captures. An array's name is "group.column", or the plane's.
 template <class Visitor, class... Captures>
 void visit_capture(Visitor&& visit, Captures&... captures) {
-  const auto group = [&](Stage stage, std::string_view name, auto records_of, auto... columns) {
-    visit.group(Handed{stage, name}, Columns(columns...), records_of(captures.records)...);
+  const auto group = [&](Handed handed, auto records_of, auto... columns) {
+    visit.group(handed, Columns(columns...), records_of(captures.records)...);
   };
   using R = Records<double>;
   const auto of = [](auto member) {
@@ -162,38 +187,38 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
     return records_of;
   };
   using M = Matrices<double>;
-  group(Stage::matrices, "matrices", of(&R::matrices), Column{"model_view", &M::model_view},
+  group({Stage::matrices, "matrices"}, of(&R::matrices), Column{"model_view", &M::model_view},
         Column{"projection", &M::projection}, Column{"normal", &M::normal}, Column{"win_scale", &M::win_scale},
         Column{"win_translate", &M::win_translate});
   using L = LightSource<double>;
-  group(Stage::matrices, "matrices.light", of(&R::lights), Column{"p_eye", &L::p_eye},
+  group({Stage::matrices, "matrices.light", Per::light}, of(&R::lights), Column{"p_eye", &L::p_eye},
         Column{"spot_eye", &L::spot_eye});
   using V = Vertex<double>;
-  group(Stage::vertex, "vertex", of(&R::vertices), Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
+  group({Stage::vertex, "vertex"}, of(&R::vertices), Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
         Column{"n_eye", &V::n_eye, kDerivable});
-  group(Stage::light, "light", of(&R::lit), Column{"color", &Lit<double>::color});
+  group({Stage::light, "light"}, of(&R::lit), Column{"color", &Lit<double>::color});
   using C = ClipVertex<double>;
   group(
-      Stage::clip, "clip", [](auto& r) -> auto& { return r.polygons.vertices; }, Column{"p_clip", &C::p_clip},
-      Column{"color", &C::color}, Column{"cut", &C::cut, kDerivable});
+      {Stage::clip, "clip", Per::clip_vertex}, [](auto& r) -> auto& { return r.polygons.vertices; },
+      Column{"p_clip", &C::p_clip}, Column{"color", &C::color}, Column{"cut", &C::cut, kDerivable});
   using P = ClipPolygon;
   group(
-      Stage::clip, "clip.polygon", [](auto& r) -> auto& { return r.polygons.polygons; },
+      {Stage::clip, "clip.polygon"}, [](auto& r) -> auto& { return r.polygons.polygons; },
       Column{"primitive", &P::primitive}, Column{"first", &P::first}, Column{"count", &P::count});
   using W = WindowVertex<double>;
   using T = WindowTriangle<double>;
-  group(Stage::window, "window", of(&R::triangles), CornerColumn{"p_win", &W::p_win}, CornerColumn{"inv_w", &W::inv_w},
-        CornerColumn{"snapped", &W::snapped, kDerivable}, CornerColumn{"color", &W::color},
-        Column{"primitive", &T::primitive}, Column{"front", &T::front, kDerivable},
+  group({Stage::window, "window"}, of(&R::triangles), CornerColumn{"p_win", &W::p_win},
+        CornerColumn{"inv_w", &W::inv_w}, CornerColumn{"snapped", &W::snapped, kDerivable},
+        CornerColumn{"color", &W::color}, Column{"primitive", &T::primitive}, Column{"front", &T::front, kDerivable},
         Column{"corners", &T::corners, kDerivable}, Column{"width", &T::width, kDerivable});
-  group(Stage::coverage, "coverage", of(&R::covered), Column{"triangle", &Covered::triangle}, Column{"x", &Covered::x},
-        Column{"y", &Covered::y});
-  group(Stage::depth, "depth", of(&R::depth), ItselfColumn{"value"});
-  group(Stage::attributes, "attributes", of(&R::attributes), Column{"color", &Attributes<double>::color});
-  group(Stage::texture, "texture", of(&R::texels), Column{"color", &Texel<double>::color},
+  group({Stage::coverage, "coverage"}, of(&R::covered), Column{"triangle", &Covered::triangle},
+        Column{"x", &Covered::x}, Column{"y", &Covered::y});
+  group({Stage::depth, "depth"}, of(&R::depth), ItselfColumn{"value"});
+  group({Stage::attributes, "attributes"}, of(&R::attributes), Column{"color", &Attributes<double>::color});
+  group({Stage::texture, "texture"}, of(&R::texels), Column{"color", &Texel<double>::color},
         Column{"lod", &Texel<double>::lod, kDerivable});
-  group(Stage::shade, "shade", of(&R::shaded), Column{"color", &Shaded<double>::color});
-  group(Stage::visibility, "visibility", of(&R::drawn), Column{"drawn", &Drawn::drawn});
+  group({Stage::shade, "shade"}, of(&R::shaded), Column{"color", &Shaded<double>::color});
+  group({Stage::visibility, "visibility"}, of(&R::drawn), Column{"drawn", &Drawn::drawn});
 
   for (const Varying v : kAllVaryings) {
     using A = VaryingColumns<double>;
@@ -202,10 +227,14 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
       const auto records_of = [=](auto& r) -> auto& { return r.varyings[v].*member; };
       return records_of;
     };
-    group(Stage::light, name + ".vertices", of_varying(&A::vertices), ItselfColumn{"value"});
-    group(Stage::clip, name + ".clipped", of_varying(&A::clipped), ItselfColumn{"value"});
-    group(Stage::window, name + ".window", of_varying(&A::triangles), CornerItselfColumn{"value"});
-    group(Stage::attributes, name + ".fragments", of_varying(&A::fragments), ItselfColumn{"value"});
+    const auto part = [&](Stage stage, const char* suffix, Per per, auto records_of, auto column) {
+      const std::string full = name + suffix;
+      group({stage, full, per, v}, records_of, column);
+    };
+    part(Stage::light, ".vertices", Per::vertex, of_varying(&A::vertices), ItselfColumn{"value"});
+    part(Stage::clip, ".clipped", Per::clip_vertex, of_varying(&A::clipped), ItselfColumn{"value"});
+    part(Stage::window, ".window", Per::triangle, of_varying(&A::triangles), CornerItselfColumn{"value"});
+    part(Stage::attributes, ".fragments", Per::fragment, of_varying(&A::fragments), ItselfColumn{"value"});
   }
 
   const auto plane = [&](Stage stage, std::string_view name, auto member) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/capture_columns.h"
 #include "scene/antialias.h"
 
 namespace plumbline {
@@ -15,7 +16,7 @@ Capture Renderer::run_stage(const Scene&, Stage stage, const Capture&, const Con
 std::vector<Stage> stages_of(const Scene& scene, Stage first, Stage last) {
   std::vector<Stage> out;
   for (const Stage stage : kAllStages) {
-    if (stage >= first && stage <= last && (stage != Stage::texture || textured(scene))) out.push_back(stage);
+    if (stage >= first && stage <= last && has_stage(scene, stage)) out.push_back(stage);
   }
   return out;
 }
@@ -47,6 +48,31 @@ std::size_t plane_bytes(const Scene& scene) {
   const std::size_t sampled = antialias.kind == Antialias::Kind::none ? 0 : (samples + 1) * sizeof(glm::vec4);
   return static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height) *
          (larger * larger * pixel + sampled);
+}
+
+namespace {
+
+struct FragmentBytes {
+  const Scene& scene;
+  StageSet stages;
+  std::size_t bytes = 0;
+
+  template <class Record>
+  void group(Handed group, const auto&, const std::vector<Record>&) {
+    const auto has = [&](Varying v) { return !is_back(v) && std::ranges::count(carried(scene), v) > 0; };
+    if (group.per != Per::fragment || !stages.has(group.stage) || !has_stage(scene, group.stage)) return;
+    if (!group.varying || has(*group.varying)) bytes += sizeof(Record);
+  }
+  void plane(Handed, const auto&) const {}
+};
+
+}  // namespace
+
+std::size_t fragment_bytes(const Scene& scene, StageSet stages) {
+  FragmentBytes out{scene, stages};
+  const Capture none;
+  visit_capture(out, none);
+  return out.bytes;
 }
 
 void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget) {

@@ -104,6 +104,8 @@ void require_samples(const Scene& scene, const std::vector<Plane<glm::vec4>>& sa
 
 /// Memory of a capture's planes and of the bounds and samples that make their colours [bytes], for require_budget().
 std::size_t plane_bytes(const Scene& scene);
+/// Memory of one fragment's records of these stages [bytes].
+std::size_t fragment_bytes(const Scene& scene, StageSet stages);
 /// Throws OverBudget, naming the scene, what it would take and the budget.
 void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget);
 

@@ -6,16 +6,57 @@
 
 #include <fmt/format.h>
 
+#include "capture/capture_columns.h"
 #include "scene/draw_index.h"
 
 namespace plumbline {
 
 namespace {
 
-void require(bool fits, std::string_view records) {
-  if (!fits)
-    throw std::invalid_argument(fmt::format("records.{} does not fit the scene or the other records", records));
+void require(bool fits, std::string_view group) {
+  if (!fits) throw std::invalid_argument(fmt::format("{}.* does not fit the scene or the other records", group));
 }
+
+bool tests_alpha(const Draw& draw) { return draw.alpha_test.has_value(); }
+
+// Whether the stage, run alone, reads the group: groups of its inputs (stages.h), but for a few.
+bool reads(const Scene& scene, Stage stage, Handed group) {
+  if (!inputs_of(stage).has(group.stage) || !has_stage(scene, group.stage)) return false;
+  if (group.varying) {
+    if (!std::ranges::count(carried(scene), *group.varying)) return false;
+    if (group.per < Per::triangle) return true;
+    if (is_back(*group.varying)) return false;
+    if (stage == Stage::texture) return group.varying == Varying::texture;
+    return group.per == Per::fragment || stage == Stage::attributes;
+  }
+  switch (group.stage) {
+    case Stage::matrices: return group.per == Per::light || stage == Stage::vertex || stage == Stage::window;
+    case Stage::attributes: return stage != Stage::texture;  // but for the varying, above
+    case Stage::shade: return stage != Stage::visibility || std::ranges::any_of(scene.draws, tests_alpha);
+    default: return true;
+  }
+}
+
+// Refuses a group that the stage reads, and that lacks a record for each of its owners.
+struct FittingSizes {
+  const Scene& scene;
+  Stage stage;
+  const Records<double>& all;
+
+  void group(Handed group, const auto&, const auto& records) const {
+    if (!reads(scene, stage, group)) return;
+    require(records.size() == owners(group.per) || (group.per == Per::light && records.empty()), group.name);
+  }
+  void plane(Handed, const auto&) const {}
+
+ private:
+  std::size_t owners(Per per) const {
+    if (per == Per::light) return scene.lights.size();
+    if (per == Per::draw) return scene.draws.size();
+    if (per == Per::vertex) return DrawIndex(scene).vertices();
+    return owners_of(all, per).count;
+  }
+};
 
 // Whether records are in draw order, of primitives that the scene has, and each with as many corners as its primitive
 // may have: a line 2, a point 1, what is left of a triangle 3 to `most`; of one that is not filled `least` are enough.
@@ -36,50 +77,28 @@ bool fit(const Scene& scene, const auto& records, auto corners_of, std::uint32_t
 
 void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   const Records<double>& r = in.records;
-  const std::size_t vertices = DrawIndex(scene).vertices();
-  const std::size_t triangles = r.triangles.size(), fragments = r.covered.size();
-  const auto read_by = [&](std::initializer_list<Stage> stages) { return std::ranges::count(stages, stage) > 0; };
-  if (read_by({Stage::vertex, Stage::window})) require(r.matrices.size() == scene.draws.size(), "matrices");
-  if (read_by({Stage::light, Stage::shade}))
-    require(r.lights.empty() || r.lights.size() == scene.lights.size(), "lights");
-  if (read_by({Stage::light, Stage::clip})) require(r.vertices.size() == vertices, "vertices");
-  if (stage == Stage::clip) require(r.lit.size() == vertices, "lit");
+  visit_capture(FittingSizes{scene, stage, r}, in);
   const std::size_t corners = r.polygons.vertices.size();
   const auto in_corners = [&](const ClipPolygon& p) { return p.first <= corners && p.count <= corners - p.first; };
   if (stage == Stage::window)
     require(fit(
                 scene, r.polygons.polygons, [](const ClipPolygon& p) { return p.count; }, 3, kMostPolygonVertices) &&
                 std::ranges::all_of(r.polygons.polygons, in_corners),
-            "polygons");
-  for (const Varying v : carried(scene)) {
-    const VaryingColumns<double>& columns = r.varyings[v];
-    const bool of_texture = stage == Stage::texture && v == Varying::texture;
-    bool fits = (stage != Stage::clip || columns.vertices.size() == r.vertices.size()) &&
-                (stage != Stage::window || columns.clipped.size() == corners);
-    if (!is_back(v) && (stage == Stage::attributes || of_texture)) fits &= columns.triangles.size() == triangles;
-    if (!is_back(v) && (stage == Stage::shade || of_texture)) fits &= columns.fragments.size() == fragments;
-    require(fits, fmt::format("varyings.{}", name_of(v)));
-  }
+            "clip.polygon");
   if (kGeometryStages.has(stage)) return;
   const auto has_width = [](const auto& t) { return t.width >= 1 && t.width <= 64; };
   require(fit(
               scene, r.triangles, [](const auto& t) { return t.corners; }, 1, 3) &&
               std::ranges::all_of(r.triangles, has_width),
-          "triangles");
+          "window");
   if (stage == Stage::coverage) return;
   const auto inside = [&](const Covered& c) {
-    return c.triangle < triangles && c.x < scene.frame.width && c.y < scene.frame.height;
+    return c.triangle < r.triangles.size() && c.x < scene.frame.width && c.y < scene.frame.height;
   };
   require(std::ranges::all_of(r.covered, inside) && std::ranges::is_sorted(r.covered, {}, &Covered::triangle),
-          "covered");
-  if (stage == Stage::shade && textured(scene)) require(r.texels.size() == fragments, "texels");
-  if (stage == Stage::shade) require(r.attributes.size() == fragments, "attributes");
-  if (stage < Stage::visibility) return;
-  require(r.depth.size() == fragments, "depth");
-  const bool by_alpha = std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
-  if (stage != Stage::merge && !by_alpha) return;
-  require(r.shaded.size() == fragments, "shaded");
-  require(r.drawn.empty() || r.drawn.size() == fragments, "drawn");
+          "coverage");
+  if (stage != Stage::merge) return;
+  require(r.drawn.empty() || r.drawn.size() == r.covered.size(), "visibility");
   const Plane<std::int32_t>& id = in.planes.id;
   const bool winners_fit = id.width() == scene.frame.width && id.height() == scene.frame.height;
   if (!id.empty() && !winners_fit) throw std::invalid_argument("planes.id is not of the frame's size");

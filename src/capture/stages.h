@@ -51,13 +51,18 @@ class StageSet {
   std::uint32_t bits_ = 0;
 };
 
-/// Owner of a record of a stage. Stages of pixels hand on planes alone.
-enum class Per { draw, vertex, polygon, triangle, fragment, pixel };
+struct Scene;
+bool textured(const Scene& scene);
+bool antialiased(const Scene& scene);
+
+/// Owner of a record. Stages of pixels hand on planes alone.
+enum class Per { light, draw, vertex, clip_vertex, polygon, triangle, fragment, pixel };
 
 struct StageRow {
   std::string_view name;
   Per per;
-  StageSet inputs;  ///< stages whose records it reads
+  StageSet inputs;                           ///< stages whose records it reads
+  bool (*in_scene)(const Scene&) = nullptr;  ///< whether a scene has the stage; null: every scene has
 };
 /// The table of the stages, in order.
 inline constexpr std::array<StageRow, 13> kStages = [] {
@@ -70,16 +75,19 @@ inline constexpr std::array<StageRow, 13> kStages = [] {
                                    {"coverage", Per::fragment, {window}},
                                    {"depth", Per::fragment, {window, coverage}},
                                    {"attributes", Per::fragment, {window, coverage}},
-                                   {"texture", Per::fragment, {window, coverage, attributes}},
+                                   {"texture", Per::fragment, {window, coverage, attributes}, textured},
                                    {"shade", Per::fragment, {matrices, window, coverage, attributes, texture}},
                                    {"visibility", Per::fragment, {window, coverage, depth, shade}},
                                    {"merge", Per::pixel, {window, coverage, depth, shade}},
-                                   {"resolve", Per::pixel, {merge}}}};
+                                   {"resolve", Per::pixel, {merge}, antialiased}}};
 }();
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
 constexpr std::string_view name_of(Stage stage) { return row_of(stage).name; }
 constexpr Per per(Stage stage) { return row_of(stage).per; }
 constexpr StageSet inputs_of(Stage stage) { return row_of(stage).inputs; }
+inline bool has_stage(const Scene& scene, Stage stage) {
+  return row_of(stage).in_scene == nullptr || row_of(stage).in_scene(scene);
+}
 
 inline constexpr std::array<std::string_view, kStages.size()> kStageNames = [] {
   std::array<std::string_view, kStages.size()> names;

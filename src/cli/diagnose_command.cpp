@@ -72,21 +72,20 @@ std::vector<report::Pictured> pictured(const Scene& scene, Renderer& candidate, 
     }
   };
   std::vector<report::Pictured> out;
-  const bool antialiased = scene.frame.antialias.kind != Antialias::Kind::none;
-  if (antialiased) out.push_back({"the frame", scene, candidate.capture(scene, Request{}), {}});
+  if (antialiased(scene)) out.push_back({"the frame", scene, candidate.capture(scene, Request{}), {}});
   const std::vector<Scene> passes = passes_of(scene);
   Request request;
   request.records = StageSet::all();
   Capture mine = all_that_fits([&] { return candidate.capture(passes.front(), request); });
   if (mine.width == 0) mine = candidate.capture(passes.front(), Request{});
-  const std::string title = !antialiased         ? "stage by stage"
+  const std::string title = !antialiased(scene)  ? "stage by stage"
                             : passes.size() == 1 ? "its samples"
                                                  : fmt::format("the first of its {} passes", passes.size());
   out.push_back({title, passes.front(), std::move(mine), {}});
   for (const check::Reference& r : references.list) {
     if (r.renderer == nullptr || !is_referee(r.renderer->info())) continue;
     out.back().expected = all_that_fits([&] { return check::expected_capture(passes.front(), *r.renderer); });
-    if (antialiased) out.front().expected = all_that_fits([&] { return r.renderer->capture(scene, Request{}); });
+    if (antialiased(scene)) out.front().expected = all_that_fits([&] { return r.renderer->capture(scene, Request{}); });
   }
   return out;
 }

@@ -41,7 +41,7 @@ std::vector<std::string> causes_of(const ProgramArgument& program, const Scene& 
                                    const RendererInfo& renderer, const check::SceneVerdict& verdict) {
   const report::Conformance ended = report::conformance_of(verdict);
   const bool is_wrong = ended == report::Conformance::differs, is_failed = ended == report::Conformance::failed;
-  const bool has_passes = scene.frame.antialias.kind != Antialias::Kind::none;  // which are drawn, not the scene
+  const bool has_passes = antialiased(scene);  // which are drawn, not the scene
   if (has_passes || !(is_wrong || is_failed)) return {};
   const std::optional<Planes> alone = drawn_alone(program, scene);
   const bool left_nothing = verdict.comparisons.front().judge.reference == renderer.name;

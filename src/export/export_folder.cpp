@@ -152,7 +152,7 @@ void write_export(const Scene& scene, const StagesOf& stages_of, const fs::path&
   require_writable_export(folder);
   AtomicPath atomic(folder);
   atomic.make_folder();
-  if (scene.frame.antialias.kind == Antialias::Kind::none) {
+  if (!antialiased(scene)) {
     write_single(scene, stages_of, ArrayFolder(atomic));
     return atomic.commit();
   }

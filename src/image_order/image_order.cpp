@@ -146,8 +146,7 @@ class ImageOrderRenderer final : public Renderer {
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
-    if (scene.frame.antialias.kind != Antialias::Kind::none)
-      throw Unsupported("it finds what is visible, not its colour");
+    if (antialiased(scene)) throw Unsupported("it finds what is visible, not its colour");
     if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
     }

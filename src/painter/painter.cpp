@@ -284,7 +284,7 @@ Painter::~Painter() = default;
 
 Frame& Painter::draw(const Scene& scene) {
   Frame& frame = memory_->frame.of(scene.frame, 1)[0];
-  if (scene.frame.antialias.kind == Antialias::Kind::none || takes_samples(scene.frame)) {
+  if (!antialiased(scene) || takes_samples(scene.frame)) {
     memory_->draw_pass(scene, frame);
     return frame;
   }

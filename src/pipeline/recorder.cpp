@@ -11,7 +11,7 @@ Recorder::Recorder(const Scene& scene, const Request& request, std::size_t bytes
       bytes_(bytes),
       depth_scale_(depth_scale(scene.frame.depth)),
       carried_(carried(scene)) {
-  for (const Stage stage : kAllStages) keeps_pixels_ |= kFragmentStages.has(stage) && request.records.has(stage);
+  fragment_bytes_ = fragment_bytes(scene, request.records);
   const int w = scene.frame.width, h = scene.frame.height;
   if (!request.pixels.empty()) wanted_pixels_ = Plane<std::uint8_t>(w, h);
   for (const glm::ivec2 p : request.pixels) {
@@ -112,7 +112,7 @@ void Recorder::fragment(const Fragment& f) {
     planes.shaded(x, y) = f.shaded;
     if (!planes.texel.empty()) planes.texel(x, y) = glm::vec4(texel.color);
   }
-  if (!keeps_pixels_ || (!wanted_pixels_.empty() && wanted_pixels_(x, y) == 0) || !wanted(primitive_)) return;
+  if (fragment_bytes_ == 0 || (!wanted_pixels_.empty() && wanted_pixels_(x, y) == 0) || !wanted(primitive_)) return;
   Records<double>& r = out_->records;
   if (keeps(Stage::coverage)) {
     r.covered.push_back({triangles_ - 1, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
@@ -127,8 +127,7 @@ void Recorder::fragment(const Fragment& f) {
   if (keeps(Stage::texture) && !planes.texel.empty()) r.texels.push_back(texel);
   if (keeps(Stage::shade)) r.shaded.push_back({Vec4<double>(f.shaded)});
   if (keeps(Stage::visibility)) r.drawn.push_back({f.drawn});
-  count(sizeof(Covered) + sizeof(double) + (2 + carried_.size()) * sizeof(Vec4<double>) + sizeof(Texel<double>) +
-        sizeof(Drawn));
+  count(fragment_bytes_);
 }
 
 }  // namespace plumbline::pipeline

@@ -51,7 +51,7 @@ class Recorder {
   Capture* out_ = nullptr;  // null: keeps nothing
   std::size_t bytes_ = 0;
   double depth_scale_ = 0;
-  bool keeps_pixels_ = false;          // records of fragments
+  std::size_t fragment_bytes_ = 0;     // of one fragment's records; 0: none is kept
   Plane<std::uint8_t> wanted_pixels_;  // empty: all
   std::vector<Varying> carried_;       // by any draw
   const Draw* draw_ = nullptr;

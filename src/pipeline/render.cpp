@@ -8,7 +8,7 @@ namespace plumbline::pipeline {
 
 Frame render(const Scene& scene, const Stages& stages, Recorder records) {
   // 12. Resolve: an antialiased scene is drawn in passes, each a scene of its own.
-  if (scene.frame.antialias.kind != Antialias::Kind::none) {
+  if (antialiased(scene)) {
     return resolve(stages.resolve, scene.frame, render_passes(scene, stages));
   }
   FrameBuffer frame(scene.frame);

@@ -48,7 +48,7 @@ class PipelineRenderer : public Renderer {
       copy_planes(picture(scene, request.painter), scene.frame, out.planes);
       return out;
     }
-    if (scene.frame.antialias.kind != Antialias::Kind::none) {
+    if (antialiased(scene)) {
       const std::vector<Frame> passes = render_passes(scene, stages_);
       copy_planes(resolve(stages_.resolve, scene.frame, passes), scene.frame, out.planes);
       for (const Frame& pass : passes) {

@@ -14,6 +14,12 @@ bool draws(const Scene& scene, Topology topology) {
   });
 }
 
+bool textured(const Scene& scene) {
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
+}
+
+bool antialiased(const Scene& scene) { return scene.frame.antialias.kind != Antialias::Kind::none; }
+
 std::vector<DrawRange> draw_ranges(const Scene& scene) {
   std::vector<DrawRange> out;
   draw_ranges(scene, out);

@@ -292,9 +292,9 @@ struct Scene {
 };
 
 /// Whether any draw has a texture.
-inline bool textured(const Scene& scene) {
-  return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
-}
+bool textured(const Scene& scene);
+/// Whether the frame is resolved from passes (scene/antialias.h).
+bool antialiased(const Scene& scene);
 /// Selects one of a vertex' lit colours. `back`: the back face's. `secondary`: the specular term alone, where
 /// LightModel::separate_specular; the primary colour is then the rest, and otherwise the whole.
 struct LitPart {

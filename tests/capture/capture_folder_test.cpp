@@ -371,13 +371,13 @@ TEST_F(CaptureFolder, RefusesArraysThatDoNotGoTogether) {
     c = make_capture();
   };
   c.records.lit.pop_back();
-  refused_capture({"array light.color", "vertex.*, 4, found 3"});
+  refused_capture({"arrays light.*", "vertex.*, 4, found 3"});
   c.records.depth.pop_back();
-  refused_capture({"array depth.value", "coverage.*, 2, found 1"});
+  refused_capture({"arrays depth.*", "coverage.*, 2, found 1"});
   c.records.attributes.emplace_back();
-  refused_capture({"array attributes.color", "found 3"});
+  refused_capture({"arrays attributes.*", "found 3"});
   c.records.shaded.emplace_back();
-  refused_capture({"array shade.color", "found 3"});
+  refused_capture({"arrays shade.*", "found 3"});
   c.planes.id = {kHeight, kWidth};
   refused_capture({"planes.id", "[3, 5]"});
 }

@@ -58,8 +58,7 @@ TEST(CompleteRecords, leave_a_capture_in_order_as_it_is) {
   std::size_t scenes = 0;
   for (const auto& file : find_scenes({{kScenes}})) {
     const Scene scene = load_scene(file, {});
-    if (scene.frame.antialias.kind != Antialias::Kind::none || scene.frame.width * scene.frame.height > 100'000)
-      continue;
+    if (antialiased(scene) || scene.frame.width * scene.frame.height > 100'000) continue;
     Capture capture;
     try {
       capture = whole_capture(scene);
@@ -98,7 +97,7 @@ TEST(CompleteRecords, fill_what_follows_from_others) {
       return scene.meshes[draw.mesh].topology == Topology::triangles &&
              (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill);
     };
-    if (scene.frame.antialias.kind != Antialias::Kind::none || std::ranges::any_of(scene.draws, outlines)) continue;
+    if (antialiased(scene) || std::ranges::any_of(scene.draws, outlines)) continue;
     const StageSet up_to_window = {Stage::matrices, Stage::vertex, Stage::clip, Stage::window};
     const Capture was = pipeline::make_pipeline()->capture(scene, {up_to_window, false, {}, {}});
     if (was.records.triangles.size() > 100'000) continue;

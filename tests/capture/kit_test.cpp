@@ -15,15 +15,19 @@
 namespace plumbline {
 namespace {
 
-// What a group's records are counted by, in the table.
-std::string count_of(std::string_view group) {
-  if (group == "matrices") return "D";
-  if (group == "matrices.light") return "L";
-  if (group == "vertex" || group == "light" || group.ends_with(".vertices")) return "V";
-  if (group == "clip.polygon") return "P";
-  if (group == "clip" || group.ends_with(".clipped")) return "C";
-  if (group == "window" || group.ends_with(".window")) return "T";
-  return "F";
+// Letter of the table for the number of a group's records.
+std::string count_of(Per owner) {
+  switch (owner) {
+    case Per::light: return "L";
+    case Per::draw: return "D";
+    case Per::vertex: return "V";
+    case Per::clip_vertex: return "C";
+    case Per::polygon: return "P";
+    case Per::triangle: return "T";
+    case Per::fragment: return "F";
+    case Per::pixel: break;
+  }
+  return "";
 }
 
 // The beginning of each array's row.
@@ -32,7 +36,7 @@ struct Rows {
   template <class Record>
   void group(Handed group, const auto& columns, const std::vector<Record>&) {
     columns.each([&]<class C>(const C& column) {
-      std::vector<std::string> shape{count_of(group.name)};
+      std::vector<std::string> shape{count_of(group.per)};
       if (C::kCorners != 0) shape.push_back(std::to_string(C::kCorners));
       add(fmt::format("{}.{}", group.name, column.name), shape, Element<ColumnType<C, const Record>>(), group.stage);
     });

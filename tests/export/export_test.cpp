@@ -53,7 +53,7 @@ TEST_P(ExportOf, EverySceneOfTheGroupDrawsTheSameBits) {
     write_export(scene, stages_of, to);
     const std::vector<Scene> passes = passes_of(scene);
     for (std::size_t i = 0; i < passes.size(); ++i) {
-      const bool single = scene.frame.antialias.kind == Antialias::Kind::none;
+      const bool single = !antialiased(scene);
       const pipeline::Frame frame = test::drawn_from_export(single ? to : to / fmt::format("pass{}", i));
       EXPECT_TRUE(same(frame, pipeline::render(passes[i]))) << scene.name << " pass " << i;
       ++drawn;

@@ -1,9 +1,9 @@
 // Names that plumb check and plumb diagnose give, from their JSON, and scenes whose hashes differ.
 #include <algorithm>
-#include <array>
 
 #include <nlohmann/json.hpp>
 
+#include "capture/stages.h"
 #include "mutation/judge.h"
 
 namespace plumbline::mutation {
@@ -12,12 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 13> kStages = {"matrices",   "vertex", "light",      "clip",    "window",
-                                                      "coverage",   "depth",  "attributes", "texture", "shade",
-                                                      "visibility", "merge",  "resolve"};
-
 std::size_t order_of(const std::string& stage) {
-  return static_cast<std::size_t>(std::ranges::find(kStages, stage) - kStages.begin());
+  return static_cast<std::size_t>(std::ranges::find(kStageNames, stage) - kStageNames.begin());
 }
 
 bool fails(const Json& row) { return row["outcome"] == "different" || row["outcome"] == "failed"; }
@@ -30,7 +26,7 @@ struct First {
   bool crashed = false;  // the row `failed`
 
   void add(const Json& row) {
-    const std::size_t here = is_picture(row) ? kStages.size() + 1 : order_of(row["stage"]);
+    const std::size_t here = is_picture(row) ? kStageNames.size() + 1 : order_of(row["stage"]);
     if (here >= at) return;
     at = here;
     named.first = is_picture(row) ? "picture" : row["stage"].get<std::string>();

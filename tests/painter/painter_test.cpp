@@ -47,7 +47,7 @@ TEST(Painter, DrawsEverySceneAsItsDefinitionDoes) {
   for (std::size_t i = 0; i < files.size(); i += one_of(6)) {
     const Scene scene = load_scene(files[i], {});
     std::vector<Scene> scenes = passes_of(scene);
-    if (scene.frame.antialias.kind != Antialias::Kind::none) scenes.push_back(scene);
+    if (antialiased(scene)) scenes.push_back(scene);
     for (const Scene& s : scenes) {
       const Frame definition = render(s, stages);
       for (const auto& [name, painter] : all) {

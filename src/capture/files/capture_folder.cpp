@@ -253,6 +253,20 @@ class Reader {
   std::map<std::string, JsonNode> arrays_;  ///< by name, those not yet read
 };
 
+/// Refuses a group that lies beside another and is of another size; where either is empty, it is not shown.
+struct BesideOthers {
+  const Records<double>& all;
+  const fs::path& folder;
+
+  void group(Handed group, const auto&, const auto& records) const {
+    const Owners owners = owners_of(all, group.per);
+    if (records.empty() || owners.count == 0 || records.size() == owners.count) return;
+    throw CaptureError(fmt::format("{}: arrays {}.*: expected as many as in {}.*, {}, found {}", folder.string(),
+                                   group.name, owners.group, owners.count, records.size()));
+  }
+  void plane(Handed, const auto&) const {}
+};
+
 /// Refuses what points outside.
 void check_indices(const Capture& capture, const fs::path& folder) {
   const auto fail = [&](std::string_view array, std::size_t i, std::string_view what) {
@@ -294,25 +308,7 @@ void check_indices(const Capture& capture, const fs::path& folder) {
     }
   }
 
-  const auto beside = [&](std::string_view array, std::size_t size, std::string_view other, std::size_t expected) {
-    if (size == 0 || expected == 0 || size == expected) return;
-    throw CaptureError(fmt::format("{}: array {}: expected as many as in {}, {}, found {}", folder.string(), array,
-                                   other, expected, size));
-  };
-  beside("light.color", records.lit.size(), "vertex.*", records.vertices.size());
-  beside("depth.value", records.depth.size(), "coverage.*", fragments);
-  beside("attributes.color", records.attributes.size(), "coverage.*", fragments);
-  beside("texture.color", records.texels.size(), "coverage.*", fragments);
-  beside("shade.color", records.shaded.size(), "coverage.*", fragments);
-  beside("visibility.drawn", records.drawn.size(), "coverage.*", fragments);
-  for (const Varying v : kAllVaryings) {
-    const VaryingColumns<double>& columns = records.varyings[v];
-    const auto column = [&](std::string_view which) { return fmt::format("varyings.{}.{}", name_of(v), which); };
-    beside(column("vertices"), columns.vertices.size(), "vertex.*", records.vertices.size());
-    beside(column("clipped"), columns.clipped.size(), "clip.*", clip.vertices.size());
-    beside(column("window"), columns.triangles.size(), "window.*", records.triangles.size());
-    beside(column("fragments"), columns.fragments.size(), "coverage.*", fragments);
-  }
+  visit_capture(BesideOthers{records, folder}, capture);
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ class ProcessRenderer : public Renderer {
     if (by_file && scene.path.empty()) {
       throw Unsupported(fmt::format("{}: a scene made in memory cannot be handed to a program", spec_.name));
     }
-    if (scene.frame.antialias.kind != Antialias::Kind::none) {
+    if (antialiased(scene)) {
       throw Unsupported(
           fmt::format("{}: an antialiased scene is drawn pass by pass, and resolved by nobody", spec_.name));
     }

@@ -34,7 +34,7 @@ struct HeldRecords {
   const Capture& capture;
   bool any = false, all = true;
   void group(Handed group, const auto&, const auto& records) {
-    if (group.stage != stage || group.name == "matrices.light" || group.name.starts_with("varyings.")) return;
+    if (group.stage != stage || group.per == Per::light || group.varying) return;
     any = true;
     all &= holds(capture, group.name, records);
   }
@@ -119,8 +119,7 @@ std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& s
   const auto require = [&](bool holds, const std::string& expected, const std::string& found) {
     if (!holds) throw std::invalid_argument(fmt::format("{}: expected {}, found {}", from, expected, found));
   };
-  require(scene.frame.antialias.kind == Antialias::Kind::none, "a scene of one sample a pixel",
-          "an antialiased one: no capture holds its passes");
+  require(!antialiased(scene), "a scene of one sample a pixel", "an antialiased one: no capture holds its passes");
   require(capture.width == scene.frame.width && capture.height == scene.frame.height,
           fmt::format("a capture of the scene's {} x {} pixels", scene.frame.width, scene.frame.height),
           fmt::format("one of {} x {}", capture.width, capture.height));

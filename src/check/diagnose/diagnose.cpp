@@ -318,7 +318,7 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
                     std::uint64_t most_fragments, Explain explain) {
   Diagnosis out;
   std::optional<Finding> first;
-  if (scene.frame.antialias.kind == Antialias::Kind::none) {
+  if (!antialiased(scene)) {
     Pass pass = look_at(scene, candidate, references, most_fragments, explain);
     out.verdict = std::move(pass.verdict);
     out.findings = std::move(pass.findings);

@@ -54,7 +54,7 @@ struct ColumnPrinter {
   bool of_light = false;  // of the stage matrices: a light, no draw
 
   void group(Handed group, const auto& columns, const auto& a, const auto& b) {
-    if (group.stage != stage || (group.name == "matrices.light") != of_light || mine >= a.size() ||
+    if (group.stage != stage || (group.per == Per::light) != of_light || mine >= a.size() ||
         (theirs && *theirs >= b.size()))
       return;
     columns.each([&](const auto& column) {

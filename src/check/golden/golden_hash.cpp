@@ -147,7 +147,7 @@ Fingerprint fingerprint(const Scene& scene, Renderer& renderer) {
     hashers.next(all);
     visit_capture(hashers, all);
   }
-  if (scene.frame.antialias.kind != Antialias::Kind::none) {
+  if (antialiased(scene)) {
     const Planes resolved = renderer.capture(scene, Request{}).planes;
     hashers.array(Stage::resolve, "color", resolved.color.values().data(), resolved.color.size() * sizeof(glm::vec4));
     hashers.array(Stage::resolve, "depth", resolved.depth.values().data(), resolved.depth.size() * sizeof(double));

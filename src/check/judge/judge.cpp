@@ -11,8 +11,7 @@ namespace {
 
 SceneVerdict judge_by(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                       BothCaptures* drawn, std::uint64_t most_fragments) {
-  if (scene.frame.antialias.kind != Antialias::Kind::none)
-    return judge_passes(scene, candidate, references, drawn, most_fragments);
+  if (antialiased(scene)) return judge_passes(scene, candidate, references, drawn, most_fragments);
   return judge_single(scene, candidate, references, drawn, most_fragments);
 }
 

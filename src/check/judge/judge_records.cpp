@@ -44,7 +44,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
       } else {
         run_exact_stage(c, referee, stage, name);
       }
-      if (shown != nullptr && (*shown)[stage].planes_alone && out.back().note == kOverBudget)
+      if (shown != nullptr && (*shown)[stage].planes_alone && !out.empty() && out.back().note == kOverBudget)
         out.back().note = "by its planes: it shows no records";
     } catch (const OverBudget& e) {
       c.skip(name, stage, Outcome::unsupported, e.what());
@@ -57,7 +57,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
 
 Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched) {
   const JudgeId kPicture("picture", Kind::picture);
-  const Stage stage = scene.frame.antialias.kind == Antialias::Kind::none ? Stage::merge : Stage::resolve;
+  const Stage stage = !antialiased(scene) ? Stage::merge : Stage::resolve;
   try {
     Comparison row;
     for (const std::string& painter : candidate.info().painters) {

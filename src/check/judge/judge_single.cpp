@@ -41,7 +41,7 @@ MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& r
                        const Conventions& conventions) {
   MadeStages made;
   for (const Stage stage : {Stage::texture, Stage::visibility}) {
-    if (!referee.info()[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
+    if (!referee.info()[stage].runs || !has_stage(scene, stage)) continue;
     try {
       made.emplace(stage, run_by_conventions(referee, scene, stage, candidate, conventions));
     } catch (const std::exception&) {

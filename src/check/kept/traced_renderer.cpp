@@ -58,8 +58,8 @@ bool may_be_made_again(const Request& request) { return !request.legal && reques
 
 bool is_pass(const Scene& scene, const Scene& of, std::size_t i) {
   const Pass pass = own_of_pass(of.frame, i);
-  return of.frame.antialias.kind != Antialias::Kind::none && scene.frame.antialias.kind == Antialias::Kind::none &&
-         scene.name == of.name && scene.frame.pass.shift == pass.shift && scene.frame.pass.sample == pass.sample;
+  return antialiased(of) && !antialiased(scene) && scene.name == of.name && scene.frame.pass.shift == pass.shift &&
+         scene.frame.pass.sample == pass.sample;
 }
 
 bool same_question(TracedCall a, TracedCall b) {

@@ -196,8 +196,8 @@ std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
   std::vector<Stage> out;
   for (const Stage stage : kAllStages) {
     const bool judged_by_any = was_judged(verdict, stage);
-    // Of a scene without textures, or that is not antialiased, nobody says anything of their stages.
-    const bool of_some = stage == Stage::texture || stage == Stage::resolve;
+    // Of a scene without the stage, nobody says anything of it.
+    const bool of_some = row_of(stage).in_scene != nullptr;
     const bool asked =
         !of_some || std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) { return c.stage == stage; });
     if (asked && !judged_by_any) out.push_back(stage);

@@ -22,7 +22,7 @@ bool is_cleared(const FrameFormat& format, const ColorAndDepth& frame, std::size
 }  // namespace
 
 std::string holes_text(const Scene& scene, const GivenFrame& given) {
-  if (scene.frame.antialias.kind != Antialias::Kind::none) return "";
+  if (antialiased(scene)) return "";
   const SceneByConventions seen(scene, given.conventions);
   const ColorAndDepth ours = draw_with({}, *seen, given.conventions);
   if (ours.color.size() != given.color.size()) return "";

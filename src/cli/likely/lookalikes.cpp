@@ -281,8 +281,7 @@ std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, 
   constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
   const Plane<glm::vec4>& color = left.planes.color;
   if (color.empty() || color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives ||
-      scene.frame.antialias.kind != Antialias::Kind::none || color.width() != scene.frame.width ||
-      color.height() != scene.frame.height)
+      antialiased(scene) || color.width() != scene.frame.width || color.height() != scene.frame.height)
     return {};
   const Lookalikes found = lookalikes(scene, frame_of(left, renderer, verdict));
   if (found.blank) return {"nothing of the scene is seen"};

@@ -29,7 +29,7 @@ Json first_row(const check::Diagnosis& diagnosis, const std::vector<check::Compa
 }
 
 std::string view_json(const Pictured& p, const check::Diagnosis& diagnosis) {
-  const bool resolved = p.scene.frame.antialias.kind != Antialias::Kind::none;
+  const bool resolved = antialiased(p.scene);
   std::vector<check::Comparison> rows = diagnosis.verdict.comparisons;
   std::erase_if(rows, [&](const check::Comparison& c) { return (c.stage == Stage::resolve) != resolved; });
   const Viewed viewed{p.title,

@@ -275,7 +275,7 @@ TEST_F(Diagnose, RaisesNothingElseOnAnySceneWhereEveryOtherStageIsRepaired) {
     const bool even = ++scenes % 2 == 0;
     if (scenes / 2 % one_of(16) != 0) continue;
     scene = load_scene(file, {});
-    if (scene.frame.antialias.kind != Antialias::Kind::none) scene = passes_of(scene)[0];
+    if (antialiased(scene)) scene = passes_of(scene)[0];
     std::set<Stage> wrong;
     for (std::size_t i = even ? 0 : 1; i <= static_cast<std::size_t>(Stage::merge); i += 2) {
       wrong.insert(static_cast<Stage>(i));

@@ -71,10 +71,10 @@ class Spoiled : public Renderer {
   RendererInfo info() const override { return inner_->info(); }
   Capture capture(const Scene& scene, const Request& request) override {
     Capture out = inner_->capture(scene, request);
-    if (scene.frame.antialias.kind != Antialias::Kind::none) return out;
+    if (antialiased(scene)) return out;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(Stage::merge); ++i) {
       const auto stage = static_cast<Stage>(i);
-      if (stage != Stage::texture || textured(scene)) copy_stage(stage, run_stage(scene, stage, out, {}), out);
+      if (has_stage(scene, stage)) copy_stage(stage, run_stage(scene, stage, out, {}), out);
     }
     return out;
   }

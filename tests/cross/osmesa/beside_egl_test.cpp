@@ -31,7 +31,7 @@ void compare_on(const std::vector<std::filesystem::path>& folders, std::size_t e
     const auto& file = files[i];
     SCOPED_TRACE(file);
     const Scene scene = load_scene(file, {});
-    if (scene.frame.antialias.kind != Antialias::Kind::none) {  // its passes stand in no file
+    if (antialiased(scene)) {  // its passes stand in no file
       EXPECT_THROW(other->capture(scene, all), Unsupported);
       continue;
     }
