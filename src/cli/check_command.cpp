@@ -113,9 +113,10 @@ std::vector<std::filesystem::path> inputs_of(const CheckOptions& o, std::span<co
   return out;
 }
 
-// Whether other conventions may explain what is wrong: none are declared, or more scenes are wrong than right.
+// Whether other conventions may explain what is wrong: none are declared, and a scene differs, or more scenes are wrong
+// than right.
 bool may_be_conventions(const CheckOptions& o, std::span<const check::SceneVerdict> verdicts) {
-  if (o.candidate.conventions.empty()) return !report::all_hold(verdicts);
+  if (o.candidate.conventions.empty()) return std::ranges::any_of(verdicts, check::first_different);
   const report::FeatureTally all = report::whole_suite(verdicts);
   return all.differs > all.holds;
 }
@@ -125,7 +126,7 @@ struct JudgedRun {
   report::RunHead head;
   std::vector<check::SceneVerdict> verdicts;
   std::vector<check::Settled> settled;
-  std::string failures;         // the diagnoses of scenes that do not hold
+  RunFailures failures;         // the diagnoses of scenes that do not hold
   std::set<std::string> words;  // that verdicts refer to
 };
 
@@ -139,7 +140,7 @@ void judge_all(const std::vector<Scene>& scenes, CheckRules& rules, JudgedRun& r
     fmt::print("{}", report::table_rows(verdict));
     std::fflush(stdout);
     if (!o.rows.empty()) leave_rows(o.rows, verdict, judged.failure);
-    run.failures += judged.failure;
+    run.failures.add(verdict, std::move(judged.failure));
     if (judged.drawing) rules.page->add(std::move(*judged.drawing));
     run.head.versions.merge(judged.versions);
   };
@@ -223,7 +224,7 @@ int check(const CheckOptions& given) {
   const bool holds = report::all_hold(run.verdicts) && run.head.failures.empty();
   const bool outside = !o.candidate.command.empty();
   const std::string summary = summary_of(rules, run, holds, seconds);
-  fmt::print("\n{}{}{}{}", run.failures, lines_of(run.head.failures),
+  fmt::print("\n{}{}{}{}", run.failures.text(), lines_of(run.head.failures),
              outside ? report::conformance_text(run.verdicts) : report::group_lines(run.verdicts), summary);
   write_outputs(rules, run, rubric, summary);
   if (holds && !run.verdicts.empty() && !check::any_judged(run.verdicts)) {

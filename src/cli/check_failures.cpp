@@ -91,6 +91,19 @@ std::string settled_line(const std::vector<check::Settled>& settled, std::size_t
                      expectations - settled.size());
 }
 
+void RunFailures::add(const check::SceneVerdict& verdict, std::string failure) {
+  for (const check::Comparison& row : verdict.comparisons) {
+    const std::size_t end = row.note.find('\n');
+    if (row.outcome != check::Outcome::failed || end == std::string::npos) continue;
+    const std::string rest = row.note.substr(end);
+    const auto [first, is_new] = first_.try_emplace(rest, verdict.scene);
+    const std::size_t at = failure.find(rest);
+    if (!is_new && first->second != verdict.scene && at != std::string::npos)
+      failure.replace(at, rest.size(), fmt::format("; its stderr is that of {}", first->second));
+  }
+  text_ += failure;
+}
+
 std::string leave_report(const std::string& folder, const Scene& scene, const check::SceneVerdict& verdict,
                          Renderer& candidate, std::span<const check::Reference> references) {
   const std::filesystem::path to = std::filesystem::path(folder) / report::file_name(verdict.scene);

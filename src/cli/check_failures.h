@@ -1,6 +1,7 @@
 // Messages and files of plumb check about a scene that does not hold.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,18 @@ std::vector<check::Settled> settle_and_explain(check::SceneVerdict& verdict, con
 
 /// Line with the number of expectations by fate. `expectations`: the number of all that were read.
 std::string settled_line(const std::vector<check::Settled>& settled, std::size_t expectations);
+
+/// Lines of a run's failures, in which the stderr of a program that fails alike on many scenes stands once.
+class RunFailures {
+ public:
+  /// `failure`: the lines of the verdict's scene.
+  void add(const check::SceneVerdict& verdict, std::string failure);
+  const std::string& text() const { return text_; }
+
+ private:
+  std::map<std::string, std::string> first_;  // lines of a stderr, and the first scene's name
+  std::string text_;
+};
 
 /// Judges the scene once more and writes a page with pictures into `folder`/<scene>. Returns lines to print; under
 /// ctest they name the pictures as CTest attaches them to the test. Throws OutputError.

@@ -225,6 +225,18 @@ TEST_F(Cli, program_that_fails_is_a_failed_row) {
   EXPECT_EQ(tally(run, "coverage").failed, 1) << run.text;
 }
 
+// A program that fails alike on every scene: its stderr stands once, and conventions are no explanation.
+TEST_F(Cli, program_that_fails_everywhere_tells_why_once) {
+  const Outcome run = plumb("check " + kSharedEdges + " " + kScenes + "cull/both_windings.json" +
+                            " --against exact --program 'echo no such key >&2; exit 3; {input} {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  const std::size_t first = run.text.find("no such key\n  repeat: ");
+  ASSERT_NE(first, std::string::npos) << run.text;
+  EXPECT_EQ(run.text.find("\nno such key", first + 1), std::string::npos) << run.text;
+  EXPECT_TRUE(run.says("exited with status 3; its stderr is that of ")) << run.text;
+  EXPECT_FALSE(run.says("plumb learn --program")) << run.text;
+}
+
 TEST_F(Cli, program_is_a_line_of_the_shell) {
   const std::string here = fs::path(PLUMBLINE_C_RENDERER).parent_path().string();
   EXPECT_EQ(plumb("check " + kSharedEdges + " --program 'cd " + here + " && A=1 ./c_renderer {input} {output}'").code,
