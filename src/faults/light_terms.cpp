@@ -19,7 +19,9 @@ using pipeline::Reflectance;
 struct LitPoint {
   EyeLight light;
   Vec3<float> p_eye, n_eye;
+  float shininess;
   float share = 1;  ///< of the light's intensity
+  float shine = 1;  ///< of its specular colour
 };
 
 /// The light equation as a sum of lights, each of whose points is changed.
@@ -28,14 +30,15 @@ Color<float> lit_light_by_light(const Illumination& illumination, const Reflecta
                                 const Vec3<float>& p_eye, const Vec3<float>& n_eye) {
   Color<float> sum = pipeline::lit<float, float>({illumination.model, {}}, reflectance, p_eye, n_eye);
   for (std::size_t i = 0; i < illumination.lights.size(); ++i) {
-    LitPoint point{illumination.lights[i], p_eye, n_eye};
+    LitPoint point{illumination.lights[i], p_eye, n_eye, reflectance.shininess};
     change(point, illumination.model);
     Illumination one{illumination.model, {}};
     one.lights.push_back(point.light);
     Reflectance<float> of_one = reflectance;
     of_one.base = {0, 0, 0};
     const Reflectance<float>::Answer& answer = reflectance.answers[i];
-    of_one.answers[0] = {point.share * answer.ambient, point.share * answer.diffuse, point.share * answer.specular};
+    of_one.answers[0] = {point.share * answer.ambient, point.share * answer.diffuse,
+                         point.share * point.shine * answer.specular};
     const Color<float> added = pipeline::lit<float, float>(one, of_one, point.p_eye, point.n_eye);
     sum = {sum.r + added.r, sum.g + added.g, sum.b + added.b, sum.a};
   }
@@ -126,6 +129,19 @@ constexpr auto kFromTheEye = [](LitPoint& at, const LightModel& model) {
   at.p_eye = -at.p_eye;
 };
 
+constexpr auto kLongHalfVector = [](LitPoint& at, const LightModel& model) {
+  const Vec3<float> to_eye = model.local_viewer ? pipeline::unit(-at.p_eye) : Vec3<float>{0, 0, 1};
+  at.shine = pipeline::power(pipeline::length(pipeline::unit(towards(at)) + to_eye), at.shininess);
+};
+
+constexpr auto kDirectionReversed = [](LitPoint& at, const LightModel&) {
+  if (!at.light.directional) return;
+  at.light.vector = -at.light.vector;
+  at.light.half = pipeline::unit(at.light.vector + Vec3<float>{0, 0, 1});
+};
+
+constexpr auto kDirectionAsPoint = [](LitPoint& at, const LightModel&) { at.light.directional = false; };
+
 constexpr auto kNoChange = [](LitPoint&, const LightModel&) {};
 
 template <auto change>
@@ -142,6 +158,12 @@ constexpr std::array kTerms = {
     term_at_vertices<kLongVector>("light.l_not_normalised",
                                   "the vector to a point light is not brought to unit length"),
     term_at_vertices<kFromTheEye>("light.view_reversed", "highlights are by the vector from the eye, not to it"),
+    term_at_vertices<kLongHalfVector>("light.half_vector_not_normalised",
+                                      "the half vector, L + V, is not brought to unit length"),
+    term_at_vertices<kDirectionReversed>("light.direction_reversed",
+                                         "a directional light shines from the side that it shines to"),
+    term_at_vertices<kDirectionAsPoint>("light.direction_as_point",
+                                        "a directional light is a point light at its direction's numbers"),
     Fault{"light.not_clamped", "lit colours beyond 1 are interpolated, and clamped at the fragments", Stage::light,
           put<&Stages::light, at_vertices<kNoChange, false>>},
     term_per_fragment<kAbsoluteCosine>("shade.n_l_absolute",
@@ -150,6 +172,13 @@ constexpr std::array kTerms = {
                                    "light per fragment: the vector to a point light is not brought to unit length"),
     term_per_fragment<kFromTheEye>("shade.view_reversed",
                                    "light per fragment: highlights are by the vector from the eye, not to it"),
+    term_per_fragment<kLongHalfVector>("shade.half_vector_not_normalised",
+                                       "light per fragment: the half vector, L + V, is not brought to unit length"),
+    term_per_fragment<kDirectionReversed>(
+        "shade.direction_reversed", "light per fragment: a directional light shines from the side that it shines to"),
+    term_per_fragment<kDirectionAsPoint>(
+        "shade.direction_as_point",
+        "light per fragment: a directional light is a point light at its direction's numbers"),
 };
 
 }  // namespace
