@@ -3,6 +3,7 @@
 #include "tests/extent.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "faults/faults.h"
 #include "pipeline/stages.h"
@@ -63,6 +64,34 @@ TEST_F(Diagnose, NamesEachStageAlone) {
     EXPECT_EQ(d.findings[0].stage, stage);
     EXPECT_GT(d.findings[0].measurement.differing, 0u);
     EXPECT_FALSE(d.findings[0].numbers.empty());
+  }
+}
+
+// A stranger whose captures leave the column texture.lod out.
+class WithoutLevels : public Spoiled {
+ public:
+  using Spoiled::Spoiled;
+  RendererInfo info() const override {
+    RendererInfo out = Spoiled::info();
+    out.profile = Profile::foreign;
+    return out;
+  }
+  Capture capture(const Scene& scene, const Request& request) override {
+    Capture out = Spoiled::capture(scene, request);
+    for (Texel<double>& texel : out.records.texels) texel.lod = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
+};
+
+TEST_F(Diagnose, PrintsNoLevelOfDetailThatIsNotTold) {
+  scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/texture/board_linear.json", {});
+  for (const Stage stage : {Stage::texture, Stage::shade}) {
+    WithoutLevels candidate(pipeline::make_pipeline(), {stage});
+    const Diagnosis d = of(candidate);
+    ASSERT_FALSE(d.findings.empty());
+    EXPECT_EQ(d.findings[0].stage, stage);
+    EXPECT_GT(d.findings[0].numbers.size(), 2u);
+    for (const std::string& line : d.findings[0].numbers) EXPECT_EQ(line.find("nan"), std::string::npos) << line;
   }
 }
 
