@@ -25,7 +25,11 @@ double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, d
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
   const glm::dvec2 size(scene.width, scene.height);
   double out = 0;
-  if (t.cut) out = depth_error_of_pieces(arithmetic, altitude, size);
+  if (t.cut) {
+    // A plane through corners that are off by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
+    const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane));
+    out = depth_error_of_pieces(arithmetic, altitude, slope * (1 + 4 * t.reach / altitude), size);
+  }
   if (!t.ahead) return out;
   return std::max(out, depth_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size));
 }

@@ -104,15 +104,18 @@ double attribute_error(double shares, double most) {
 }
 
 // A triangle of altitude h has A >= h L, L its longest side, at most the window's diagonal D: no less than h^2. Depths
-// are at most 1, a plane's slope is at most 2 / h, products of differences are at most L D, those of positions at most
-// 4 times the window's area.
-double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, glm::dvec2 window) {
+// are at most 1, their gradient g at most 2 / h. Products of differences are at most L D, those of positions at most 4
+// times the window's area. A plane's differences of depths are at most g L, so that its gradient is off by 3 sqrt(2) g L
+// / h or less (both components together), over a distance of at most D.
+double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope,
+                             glm::dvec2 window) {
   using enum Conventions::DepthArithmetic;
   if (arithmetic == in_double) return 0;
   if (!(altitude > 0)) return kInfinity;
-  const double thin = glm::length(window) / altitude;
+  const double diagonal = glm::length(window), thin = diagonal / altitude,
+               rise = std::min(slope, 2 / altitude) * diagonal;
   const double by_edges = 4 * (3 * 2 * thin + 2 * thin + 1),
-               by_plane = 4 * (1 + 4 * sum_of(window) / altitude + 2 * (2 * thin + 4 * thin * thin)),
+               by_plane = 4 * (1 + 2 * rise + 3 * std::sqrt(2.0) * rise * thin),
                by_equations = 10 * 30 * window.x * window.y / (altitude * altitude);
   const double in_differences = std::max(by_edges, by_plane);
   return kU * ((arithmetic == in_float_from_origin ? std::max(in_differences, by_equations) : in_differences) + 1);

@@ -41,7 +41,8 @@ double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners
 /// `shares` is shares_error(), times the largest corner's 1/w over the pixel's. Infinite from 1 on.
 double attribute_error(double shares, double most);
 
-/// Bound of depth_error() for every triangle within a window [pixels], of altitudes of at least `altitude` [pixels].
-double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, glm::dvec2 window);
+/// Bound of depth_error() for every triangle within a window [pixels], of altitudes of at least `altitude` [pixels],
+/// whose depths change by `slope` [window z per pixel] or less: at most 2 / altitude, what any such triangle's do.
+double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window);
 
 }  // namespace plumbline
