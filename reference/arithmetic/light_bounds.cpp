@@ -86,6 +86,18 @@ Highlight highlight(const LightModel& model, const Vec3<double>& n, const Ray& r
   return {glm::dot(2 * n_dot_l * n - r.to_light, e), 4 * length * length * (r.condition + 1)};
 }
 
+// The least that a sum of colours may be, by its parts that are certain.
+class LeastLight {
+ public:
+  // A part that may be below 0, as of a material colour that follows a vertex colour extrapolated beyond its triangle.
+  void add(const Vec3<double>& color) { sum_ += glm::min(color, Vec3<double>(0)); }
+  void add_certain(const Vec3<double>& color) { sum_ += color; }
+  bool is_saturated(glm::length_t channel) const { return sum_[channel] >= 1; }
+
+ private:
+  Vec3<double> sum_{0};
+};
+
 }  // namespace
 
 LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vertex<double>& vertex,
@@ -109,6 +121,9 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
   // Extrapolated beyond its triangle, a colour may be negative, and so may a material colour that follows it.
   out.magnitude = glm::abs(Vec3<double>(m.emission)) + glm::abs(Vec3<double>(m.ambient) * Vec3<double>(model.ambient));
   out.inherited = errors.color * (Vec3<double>(1) + Vec3<double>(model.ambient));
+  LeastLight least;
+  least.add(Vec3<double>(m.emission) - errors.color);
+  least.add((Vec3<double>(m.ambient) - errors.color) * Vec3<double>(model.ambient));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     const LightSource<double>& source = i < lights.size() ? lights[i] : own[i];
@@ -143,13 +158,28 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
         (share.value + share.inherited) *
             (n_l_moved * diffuse + moved_power(h.cosine, m.shininess, h_moved) * specular + errors.color * white) +
         share.inherited * all;
-    if (std::abs(n_dot_l) <= kError * r.condition * length + n_l_moved) out.jump += share.value * p.value * specular;
+    const double edge = kError * r.condition * length + n_l_moved;  // of N.L
+    if (std::abs(n_dot_l) <= edge) out.jump += share.value * p.value * specular;
+    const double most_share = share.value + share.error * kError + share.inherited,
+                 least_share = 2 * share.value - most_share - share.beyond;
+    least.add(most_share * (Vec3<double>(m.ambient) - errors.color) * Vec3<double>(light.ambient));
+    least.add(most_share * (std::max(n_dot_l, 0.0) + edge) * (Vec3<double>(m.diffuse) - errors.color) *
+              Vec3<double>(light.diffuse));
+    const Vec3<double> shine = (Vec3<double>(m.specular) - errors.color) * Vec3<double>(light.specular);
+    if (n_dot_l > edge && least_share > 0 && !flips) {
+      const double power_least = power(h.cosine - h.error * kError - h_moved, m.shininess, 0).value;
+      least.add_certain(least_share * power_least * glm::max(shine, Vec3<double>(0)));
+    }
+    least.add(most_share * 1e30 * shine);
     if (flips && std::abs(n_dot_e) <= 2 * kError * length + errors.n_eye + length * e_moved) {  // either way round
       const double gloss = power(std::abs(h.cosine), m.shininess, h.error * kError).value;
       out.jump += share.value * (std::abs(n_dot_l) * diffuse + gloss * specular);
     }
   }
   out.magnitude = glm::max(out.magnitude, Vec3<double>(1));
+  for (int c = 0; c < 3; ++c) {
+    if (least.is_saturated(c)) out.magnitude[c] = 1, out.inherited[c] = out.jump[c] = 0;
+  }
   return out;
 }
 

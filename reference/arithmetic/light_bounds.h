@@ -11,7 +11,8 @@
 
 namespace plumbline::math {
 
-/// Bounds on the effect of rounding and of the inputs' errors on a lit colour, per channel.
+/// Bounds on the effect of rounding and of the inputs' errors on a lit colour, per channel. A channel whose specular
+/// term alone is certainly 1 or more is clamped to 1: its bounds are those of 1, however far off the power is.
 struct LightBounds {
   /// Rounding error of the light equation in float, in units of 16 u: |emission| + |ambient| |global ambient| and the
   /// sum over the lights of |ambient| + k |n| |diffuse| + (k + s e) |specular|, at least 1 (the clamped result). k:

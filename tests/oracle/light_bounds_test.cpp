@@ -136,12 +136,33 @@ TEST_F(LightBoundsTest, GzRendersRuleTurnsAtTheHorizon) {
 }
 
 TEST_F(LightBoundsTest, LongNormalsSteepenThePower) {
-  light.specular = {2, 2, 0.5};
+  light.specular = {0.2, 2, 0.5};
   scene.lights = {light};
   draw.material.diffuse = glm::vec4(0);
   draw.material.shininess = 2;
   // N.H = 2: (N.H)^2 = 4, its slope 2 * 2, of an argument twice as long (1 + 1/2 times).
-  EXPECT_NEAR(at({0, 0, 0}, {0, 0, 2}).magnitude.r, 0.5 + 0.5 * (4 + 4 * 3), 1e-3);
+  EXPECT_NEAR(at({0, 0, 0}, {0, 0, 2}).magnitude.r, 0.5 + 0.05 * (4 + 4 * 3), 1e-6);
+}
+
+// A highlight of 1 or more is clamped to 1 however large its power is.
+TEST_F(LightBoundsTest, OfAHighlightBeyondOneAreThoseOfOne) {
+  light.specular = {2, 2, 0};
+  scene.lights = {light};
+  draw.material.diffuse = {0, 0, 1, 1};
+  draw.material.shininess = 128;
+  const LightBounds certain = at({0, 0, 0}, {0, 0, 1000});
+  EXPECT_EQ(glm::dvec2(certain.magnitude), glm::dvec2(1));
+  EXPECT_LT(certain.magnitude.b, 1e4) << "0 of the power";
+  EXPECT_EQ(certain.overflows, glm::bvec3(false, false, true));
+  draw.material.specular = {0.0625, 0, 0, 1};
+  draw.material.shininess = 2;  // 2 / 16 (N.H)^2
+  EXPECT_GT(at({0, 0, 0}, {0, 0, 2.75}).magnitude.r, 1) << "N.H^2 = 7.6";
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 2.875}).magnitude.r, 1) << "N.H^2 = 8.3";
+  EXPECT_GT(
+      light_bounds(scene, material(), {glm::dvec4(0, 0, 0, 1), glm::dvec4(0), glm::dvec3(0, 0, 2.875)}, {0, 0.25, 0})
+          .magnitude.r,
+      1)
+      << "N is off by 1/4";
 }
 
 TEST_F(LightBoundsTest, InheritWhatTheInputsAreOffBy) {
