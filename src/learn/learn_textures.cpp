@@ -18,13 +18,13 @@ using C = Conventions;
 
 constexpr int kTexturedSize = 64;
 
-// A frame filled by a textured rectangle; (s, t) from 0 to `most`.
-Scene textured_frame(const std::string& name, Texture texture, float most) {
+// A frame filled by a textured rectangle; s and t from `least` to `most`.
+Scene textured_frame(const std::string& name, Texture texture, float most, float least = 0) {
   Scene scene = probe_frame(name, kTexturedSize, kTexturedSize);
   scene.textures.push_back(std::move(texture));
   const auto at = [&](double x, double y) {
     const glm::dvec2 share = glm::dvec2(x, y) / static_cast<double>(kTexturedSize);
-    return ProbeCorner{{x, y, 0.5}, glm::vec4(1), most * glm::vec2(share)};
+    return ProbeCorner{{x, y, 0.5}, glm::vec4(1), glm::vec2(least) + (most - least) * glm::vec2(share)};
   };
   add_triangles(scene, quad({at(0, 0), at(kTexturedSize, 0), at(kTexturedSize, kTexturedSize), at(0, kTexturedSize)}))
       .texture = DrawTexture{0, TextureEnvironment::replace, glm::vec4(0)};
@@ -44,6 +44,31 @@ Texture texture_of(int size, auto code) {
     }
   }
   return out;
+}
+
+// Errors of the weights between a black texel and a white one, at each column.
+struct WeightErrors {
+  double least = std::numeric_limits<double>::infinity(), most = -least, mean = 0;
+};
+WeightErrors weight_errors(Prober& prober) {
+  Texture texture = texture_of(2, [](int x, int) { return 255 * x; });
+  texture.sampler.min = MinFilter::linear, texture.sampler.mag = MagFilter::linear;
+  constexpr float kLeast = 0.25f, kMost = kLeast + 0.5f * 61 / 64;
+  const Plane<glm::vec4> color = prober.draw(textured_frame("texture_ramp", texture, kMost, kLeast)).color;
+  WeightErrors out;
+  for (int x = 0; x < kTexturedSize; ++x) {
+    const double share = (x + prober.learned.conventions.sample.x) / kTexturedSize * 61 / 64,
+                 error = static_cast<double>(color(x, kTexturedSize / 2).r) - share;
+    out.least = std::min(out.least, error), out.most = std::max(out.most, error), out.mean += error / kTexturedSize;
+  }
+  return out;
+}
+
+// Whether the errors are those of weights rounded to steps: up, down or to the nearest, and of colours in codes. Not of
+// another curve, nor of a sample that is off.
+bool are_of_rounding(const WeightErrors& errors, double step) {
+  constexpr double kCode = 1.0 / 255;
+  return errors.most - errors.least <= 2 * step + 2 * kCode && std::abs(errors.mean) <= step / 2 + kCode;
 }
 
 }  // namespace
@@ -85,6 +110,14 @@ void learn_weights(Prober& prober) {
   const bool are_float = most <= (c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01);
   const int bits = are_float ? C::kFloat : std::min(static_cast<int>(std::floor(-std::log2(step))), 12);
   if (!are_float && bits < 4) return prober.fits_none(words, evidence);
+  // Steps of two codes or more: less shows no form.
+  if (constexpr int kMostCoarse = 7; !are_float && bits <= kMostCoarse) {
+    const WeightErrors errors = weight_errors(prober);
+    if (!are_of_rounding(errors, std::ldexp(1.0, -bits)))
+      return prober.fits_none(
+          words, fmt::format("{}; weights are {:+.3f} to {:+.3f} off, {:+.3f} in the mean: no rounding", evidence,
+                             errors.least, errors.most, errors.mean));
+  }
   prober.learned.conventions.texture_bits = bits;
   prober.found(words, bits_text(bits), evidence);
 }

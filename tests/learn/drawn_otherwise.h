@@ -55,6 +55,23 @@ inline FilteredTexel<float> weights_of_6_bits(const TextureSetup& t, const TexCo
   return pipeline::texture<float>(t, {rounded(at.s, t.width), rounded(at.t, t.height)}, g);
 }
 
+/// The base level, with weights a a (3 - 2 a).
+inline FilteredTexel<float> smooth_weights(const TextureSetup& t, const TexCoords<float>& at,
+                                           const Gradients<float>& g) {
+  const auto smoothed = [](float coordinate, double size) {
+    const double texels = static_cast<double>(coordinate) * size - 0.5, low = std::floor(texels), a = texels - low;
+    return static_cast<float>((low + a * a * (3 - 2 * a) + 0.5) / size);
+  };
+  return pipeline::texture<float>(t, {smoothed(at.s, t.width), smoothed(at.t, t.height)}, g);
+}
+
+/// Samples that lie 0.03 texels too far.
+inline FilteredTexel<float> moved_by_a_texels_part(const TextureSetup& t, const TexCoords<float>& at,
+                                                   const Gradients<float>& g) {
+  const auto moved = [](float coordinate, double size) { return coordinate + static_cast<float>(0.03 / size); };
+  return pipeline::texture<float>(t, {moved(at.s, t.width), moved(at.t, t.height)}, g);
+}
+
 /// The scene under which a unit of polygon offset is one code, not two.
 inline Scene with_half_of_offsets(Scene scene) {
   for (Draw& draw : scene.draws) draw.polygon_offset.units /= 2;

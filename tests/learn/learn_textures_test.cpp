@@ -37,6 +37,21 @@ TEST(LearnTextures, WeightsOfFewBitsAreFound) {
   EXPECT_EQ(found, ours());
 }
 
+// Filters whose errors are those of few bits in size, and not in form.
+TEST(LearnTextures, CurvesAndOffsetsAreNoWeightsOfFewBits) {
+  const auto says = [](decltype(pipeline::Stages::texture) texture) {
+    pipeline::Stages stages = pipeline::production_stages();
+    stages.texture = texture;
+    const auto renderer = pipeline::make_pipeline(stages);
+    const Learned found = learn(*renderer);
+    EXPECT_EQ(std::ranges::count(found.conventions.open, "texture_bits"), 1);
+    const auto row = std::ranges::find(found.rows, "texture_bits", &LearnedRow::name);
+    return row == found.rows.end() ? "" : row->evidence;
+  };
+  EXPECT_NE(says(test::smooth_weights).find("no rounding"), std::string::npos);
+  EXPECT_NE(says(test::moved_by_a_texels_part).find("no rounding"), std::string::npos);
+}
+
 TEST(LearnTextures, APolygonOffsetsUnitIsFound) {
   OfAlteredScenes renderer;
   renderer.before = [](Scene& scene) { scene = test::with_half_of_offsets(scene); };
