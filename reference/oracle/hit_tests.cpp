@@ -25,8 +25,8 @@ void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, co
                PixelHit& out) {
   Hit& hit = out.hit;
   if (draw.alpha_test) {
-    const bool bounded = std::isfinite(hit.color_bound);
-    const double lo = hit.color.a - hit.color_bound, hi = hit.color.a + hit.color_bound;
+    const bool bounded = std::isfinite(out.alpha_bound);
+    const double lo = hit.color.a - out.alpha_bound, hi = hit.color.a + out.alpha_bound;
     const Outcomes alpha =
         bounded ? alpha_test(*draw.alpha_test, frame.color, conventions.alpha_test, lo, hi) : Outcomes{true, true};
     hit.alpha_passes = alpha.may_pass;

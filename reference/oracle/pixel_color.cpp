@@ -66,6 +66,8 @@ class FragmentColor {
 
   /// The colour and its bound after all stages up to fog.
   BoundedFour color() const;
+  /// Whether alpha is 0 by any arithmetic: at all corners, and no texture replaces it.
+  bool has_no_alpha() const;
 
  private:
   bool is_two_sided() const { return draw_.lit && scene_.light_model.sides == LightModel::Sides::two; }
@@ -120,6 +122,16 @@ BoundedFour FragmentColor::color() const {
   return color;
 }
 
+bool FragmentColor::has_no_alpha() const {
+  const bool keeps_0 = !draw_.texture || draw_.texture->environment == TextureEnvironment::modulate ||
+                       draw_.texture->environment == TextureEnvironment::decal;
+  const auto is_0 = [&](std::size_t i) {
+    const Corner& c = site_.scene.corners[site_.t.corner[i]];
+    return c.color.a == 0 && (!is_two_sided() || c.back_color.a == 0);
+  };
+  return keeps_0 && !is_lit_per_fragment(draw_) && is_0(0) && is_0(1) && is_0(2);
+}
+
 void FragmentColor::light_fragment(BoundedFour& color, BoundedFour& secondary) const {
   const BoundedFour p = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
   const BoundedFour n = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
@@ -163,9 +175,11 @@ void FragmentColor::fog(BoundedFour& color) const {
 }  // namespace
 
 void set_color(const Scene& scene, const PixelSite& site, PixelHit& hit) {
-  const BoundedFour color = FragmentColor(scene, site, hit.hit.certain).color();
+  const FragmentColor fragment(scene, site, hit.hit.certain);
+  const BoundedFour color = fragment.color();
   hit.hit.color = color.value;
   hit.hit.color_bound = color.bound;
+  hit.alpha_bound = fragment.has_no_alpha() ? 0 : color.bound;
 }
 
 void color_hit(const Scene& scene, const Projected& projected, int px, int py, PixelHit& hit) {

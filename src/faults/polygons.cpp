@@ -101,6 +101,21 @@ void left_out_after_division(const DrawInput& input, Polygon& polygon) {
   pipeline::clip(input, polygon);
 }
 
+// Facing by x/w and y/w before anything is cut: a corner behind the eye is mirrored, which turns the triangle over.
+void culled_before_clip(const DrawInput& input, Polygon& polygon) {
+  const Cull cull = input.draw->cull;
+  if (polygon.corners.size() == 3 && cull != Cull::none) {
+    const auto at = [&](std::size_t i) {
+      const Vec4<float>& p = polygon.corners[i].p_clip;
+      return glm::vec2(p.x / p.w, p.y / p.w);
+    };
+    const glm::vec2 a = at(1) - at(0), b = at(2) - at(0);
+    const bool is_front = a.x * b.y - a.y * b.x > 0;
+    if (is_front == (cull == Cull::front)) return polygon.corners.clear();
+  }
+  pipeline::clip(input, polygon);
+}
+
 Polygon first_provokes(const DrawInput& input, const glm::uvec3& corners, std::span<const Vertex<float>> vertices,
                        std::span<const Attributes> attributes) {
   Polygon polygon = pipeline::assemble(input, corners, vertices, attributes);
@@ -227,6 +242,7 @@ constexpr std::array kPolygons = {
                                     "what is behind the eye is taken for its mirror image before it"),
     of_clip<left_out_after_division>("clip.left_out_after_division",
                                      "triangles are left out by x/w and y/w, behind the eye too", "vindar/tgx#47"),
+    of_clip<culled_before_clip>("clip.culled_before_cut", "faces are culled by x/w and y/w, behind the eye too"),
     Fault{"clip.first_vertex_provokes", "flat triangles have their first corner's colour", Stage::clip,
           put<&Stages::assemble, first_provokes>, "flyinghead/flycast#1681"},
     of_clip<clip_changed<kAttributesNotCut>>("clip.attributes_not_cut",
