@@ -288,8 +288,35 @@ TEST(Lookalikes, of_a_stage_that_is_wrong_by_itself_come_first) {
   EXPECT_EQ(lookalikes(scene, given).likely, "window (fault window.next_values)");
   given.wrong = {Stage::depth};
   EXPECT_EQ(lookalikes(scene, given).likely, "attributes (fault attributes.next_corner)") << "no such fault of depths";
-  given.wrong = {Stage::coverage};
-  EXPECT_EQ(lookalikes(scene, given).likely, "") << "nor of coverage, which is wrong";
+  for (const Stage stage : {Stage::light, Stage::clip, Stage::coverage}) {
+    given.wrong = {stage};
+    EXPECT_EQ(lookalikes(scene, given).likely, "") << "nor of " << name_of(stage) << ", which is wrong";
+  }
+}
+
+// Depths of 16 bits, and a colour that differs legally: no fault of the colour explains the depths.
+TEST(Lookalikes, of_legal_colors_explain_no_wrong_depths) {
+  const Scene scene = scene_of("coverage/hairlines.json");
+  GivenFrame given = drawn(scene, "coverage.top_for_bottom");
+  const ColorAndDepth right = drawn(scene, "");
+  given.depth = right.depth;
+  for (double& z : given.depth.values()) z = std::nearbyint(z * 65535) / 65535;
+  given.is_legal = given.is_legal_color = Plane<std::uint8_t>(given.color.width(), given.color.height(), 1);
+  for (std::size_t i = 0; i < given.depth.size(); ++i) {
+    if (given.depth.values()[i] != right.depth.values()[i]) given.is_legal.values()[i] = 0;
+  }
+  EXPECT_EQ(lookalikes(scene, given).likely, "") << lookalikes(scene, given).text;
+  EXPECT_FALSE(lookalikes(scene, given).by_color);
+}
+
+// A fault that explains the colours, and would have put depths off that are right.
+TEST(Lookalikes, of_colors_alone_leave_right_depths_alone) {
+  const Scene scene = scene_of("cull/closed_mesh.json");
+  GivenFrame given = drawn(scene, "window.other_side_culled");
+  const ColorAndDepth right = drawn(scene, "");
+  EXPECT_NE(lookalikes(scene, given).likely, "");
+  given.depth = right.depth;
+  EXPECT_EQ(lookalikes(scene, given).likely, "") << lookalikes(scene, given).text;
 }
 
 TEST(Lookalikes, right_stages_are_those_that_a_row_finds_right_and_none_wrong) {

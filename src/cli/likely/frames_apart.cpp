@@ -16,8 +16,12 @@ struct Eye {
   bool by_alpha = false;
 };
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
-constexpr std::array<Eye, kLooks> kEyes = {
-    {{1.5f, 1.5, 0x1p-20, true}, {1.5f, 1.5, 0x1p-20}, {1.5f, kUnseen, 0}, {0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}}};
+constexpr std::array<Eye, kLooks> kEyes = {{{1.5f, 1.5, 0x1p-20, true},
+                                            {1.5f, 1.5, 0x1p-20},
+                                            {1.5f, kUnseen, 0},
+                                            {kUnseen, 1.5, 0x1p-20},
+                                            {0.5f, kUnseen, 0},
+                                            {kUnseen, 0.25, 0}}};
 
 // Whether the frames differ in a pixel.
 bool is_apart(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i,
@@ -52,9 +56,10 @@ FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const Colo
   for (std::size_t look = 0; look < kLooks; ++look) {
     std::vector<std::uint8_t>& passed_over = passed_over_[look];
     passed_over.resize(given.color.size());
-    if (given.is_legal.size() != given.color.size()) continue;
+    const Plane<std::uint8_t>& legal = is_of_color(static_cast<Look>(look)) ? given.is_legal_color : given.is_legal;
+    if (legal.size() != given.color.size()) continue;
     for (std::size_t i = 0; i < passed_over.size(); ++i) {
-      const bool is_legal = given.is_legal.values()[i] != 0;
+      const bool is_legal = legal.values()[i] != 0;
       passed_over[i] = is_legal && is_apart(format, given, ours, i, kEyes[look]) ? 1 : 0;
     }
   }

@@ -24,16 +24,20 @@ struct GivenFrame : ColorAndDepth {
   Conventions conventions;
   /// 1: the pixel is legal; where it differs from ours, it counts neither for a fault nor against one. Empty: not
   /// known.
-  Plane<std::uint8_t> is_legal;
+  Plane<std::uint8_t> is_legal{};
+  /// The same of the colour alone: its depth may be wrong.
+  Plane<std::uint8_t> is_legal_color{};
   bool has_alpha = false;  ///< alpha is known; else it is not compared
   StageSet right{};        ///< stages that are judged right, or given: their faults are no causes
   StageSet wrong{};        ///< stages that are wrong on their own input: their faults are named before others
 };
 
 /// Threshold of a difference. Coarse: beyond 1.5 codes of 8 bits or 1.5 steps of depth, with alpha or without, or by
-/// colour alone, whatever the depths. Fine: beyond half a code, or a quarter of a step, which only truncation makes.
-enum Look { kCoarseByAlpha, kCoarse, kCoarseColor, kFineColor, kFineDepth };
-constexpr std::size_t kLooks = 5;
+/// colour alone, whatever the depths, or by depth alone. Fine: beyond half a code, or a quarter of a step, which only
+/// truncation makes.
+enum Look { kCoarseByAlpha, kCoarse, kCoarseColor, kCoarseDepth, kFineColor, kFineDepth };
+constexpr std::size_t kLooks = 6;
+constexpr bool is_of_color(Look look) { return look == kCoarseColor || look == kFineColor; }
 constexpr bool is_fine(Look look) { return look >= kFineColor; }
 /// Number of pixels that differ, by Look.
 using Apart = std::array<std::size_t, kLooks>;

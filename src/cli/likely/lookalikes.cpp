@@ -100,8 +100,8 @@ std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
 }
 
-// Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels. Where coverage is wrong on
-// its own input, or a fault of a wrong stage explains as much, only faults of wrong stages count. `all`: the
+// Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels. Where a stage up to coverage is
+// wrong on its own input, or a fault of a wrong stage explains as much, only faults of wrong stages count. `all`: the
 // nearest first. Returns the fault named, or null.
 const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
@@ -109,9 +109,10 @@ const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, cons
   const auto is_of_wrong = [&](const Lookalike& l) {
     return std::ranges::any_of(l.faults, [&](const KnownFault* f) { return is_of(wrong, *f); });
   };
-  // Coverage of given triangles needs no rounding: where it is wrong, only a fault of coverage itself explains it.
-  const bool by_wrong = wrong.has(Stage::coverage) ||
-                        std::ranges::any_of(all, [&](const Lookalike& l) { return explains(l) && is_of_wrong(l); });
+  // The stages after coverage may be wrong by roundings alone, beside the fault that the frame shows.
+  const bool by_wrong =
+      std::ranges::any_of(kAllStages, [&](Stage s) { return s <= Stage::coverage && wrong.has(s); }) ||
+      std::ranges::any_of(all, [&](const Lookalike& l) { return explains(l) && is_of_wrong(l); });
   const auto counts = [&](const Lookalike& l) { return !by_wrong || is_of_wrong(l); };
   const auto found = std::ranges::find_if(all, counts);
   if (found == all.end() || !explains(*found)) return nullptr;
@@ -207,6 +208,9 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   });
   const auto seen_by = [&](Look look, bool in_pairs) {
     std::vector<Lookalike> nearest = all;
+    // By colour alone, a fault must not put depths off that are right.
+    if (look == kCoarseColor)
+      std::erase_if(nearest, [&](const Lookalike& l) { return 10 * l.apart[kCoarseDepth] > 11 * apart[kCoarseDepth]; });
     Lookalikes out = ranked(nearest, apart, look, given.wrong);
     out.by_color = look == kCoarseColor;
     if (in_pairs && out.likely.empty() && !nearest.empty())
@@ -235,24 +239,40 @@ bool tells_legal_colors(const check::Comparison& row) {
   return row.stage == Stage::merge && judges_legality(row.judge, row.stage) && was_compared(row);
 }
 
-// 1 where no row that judges legality finds the pixel wrong. Empty where no such row judged colours, none finds a pixel
-// wrong, or one does not list all of its pixels.
-Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict) {
+// 1 where no row that judges legality finds the pixel wrong; with `colors`, no such row of colours. Empty where no such
+// row judged colours, no row finds a pixel wrong, or one does not list all of its pixels.
+Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict, bool colors) {
   if (std::ranges::none_of(verdict.comparisons, tells_legal_colors)) return {};
   Plane<std::uint8_t> out(planes.color.width(), planes.color.height(), 1);
   bool any_wrong = false;
   for (const check::Comparison& row : verdict.comparisons) {
     if (row.outcome != check::Outcome::different || !judges_legality(row.judge, row.stage)) continue;
     if (row.measurement.differing_at.size() < row.measurement.differing) return {};
-    for (const glm::ivec2 p : row.measurement.differing_at) out(p.x, p.y) = 0, any_wrong = true;
+    any_wrong = any_wrong || !row.measurement.differing_at.empty();
+    if (colors && !tells_legal_colors(row)) continue;
+    for (const glm::ivec2 p : row.measurement.differing_at) out(p.x, p.y) = 0;
   }
   return any_wrong ? out : Plane<std::uint8_t>();
+}
+
+// Whether records alone are wrong: rows that judge legality judged the frame's colours, and none finds it wrong.
+bool is_wrong_by_records_alone(const check::SceneVerdict& verdict) {
+  const auto is_wrong = [](const check::Comparison& row) { return row.outcome == check::Outcome::different; };
+  const auto is_wrong_frame = [&](const check::Comparison& row) {
+    return is_wrong(row) && judges_legality(row.judge, row.stage);
+  };
+  return std::ranges::any_of(verdict.comparisons, is_wrong) &&
+         std::ranges::any_of(verdict.comparisons, tells_legal_colors) &&
+         std::ranges::none_of(verdict.comparisons, is_wrong_frame);
 }
 
 }  // namespace
 
 GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict) {
-  GivenFrame out{{left.planes.color, left.planes.depth}, renderer.conventions, legal_pixels(left.planes, verdict)};
+  GivenFrame out{{left.planes.color, left.planes.depth},
+                 renderer.conventions,
+                 legal_pixels(left.planes, verdict, false),
+                 legal_pixels(left.planes, verdict, true)};
   out.has_alpha = true;
   for (const Stage stage : kAllStages) {
     if (stage >= Stage::merge) break;
@@ -270,7 +290,7 @@ std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVe
     if (c.stage == Stage::merge && c.outcome == check::Outcome::different)
       wrong = std::max(wrong, c.measurement.differing);
   }
-  if (found.likely.empty() || 2 * found.apart < wrong) return {};
+  if (found.likely.empty() || 2 * found.apart < wrong || is_wrong_by_records_alone(verdict)) return {};
   std::vector<std::string> out = {found.likely};
   out.insert(out.end(), found.ties.begin(), found.ties.end());
   return out;

@@ -32,7 +32,8 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given);
 /// The frame that a capture of `renderer` holds, as `verdict` judges it.
 GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict);
 /// found.likely and found.ties. Empty where found.apart is less than half of the pixels that a row finds different at
-/// merge: the fault then resembles a legal rule of the renderer, not its mistake.
+/// merge, or where records are wrong and the frame is legal: the fault then resembles a legal rule of the renderer, not
+/// its mistake.
 std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
 /// likely_of() the capture's frame, or "nothing of the scene is seen" where all its pixels have one colour. Empty also
 /// for an antialiased scene, and for one of more than 20,000 primitives or 200,000 pixels: each fault is a picture.
