@@ -58,6 +58,19 @@ struct FittingSizes {
   }
 };
 
+struct LackingVarying {
+  const Scene& scene;
+  Stage stage;
+  const Records<double>& all;
+  std::string name;
+
+  void group(Handed group, const auto&, const auto& records) {
+    const bool is_read = group.varying && reads(scene, stage, group);
+    if (name.empty() && is_read && records.empty() && owners_of(all, group.per).count > 0) name = group.name;
+  }
+  void plane(Handed, const auto&) const {}
+};
+
 // Whether records are in draw order, of primitives that the scene has, and each with as many corners as its primitive
 // may have: a line 2, a point 1, what is left of a triangle 3 to `most`; of one that is not filled `least` are enough.
 bool fit(const Scene& scene, const auto& records, auto corners_of, std::uint32_t least, std::uint32_t most) {
@@ -74,6 +87,12 @@ bool fit(const Scene& scene, const auto& records, auto corners_of, std::uint32_t
 }
 
 }  // namespace
+
+std::string lacking_varying(const Scene& scene, Stage stage, const Capture& in) {
+  LackingVarying out{scene, stage, in.records, ""};
+  visit_capture(out, in);
+  return out.name;
+}
 
 void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   const Records<double>& r = in.records;

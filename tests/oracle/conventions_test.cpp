@@ -56,6 +56,23 @@ std::size_t open_pixels(const Legal& of) {
 const std::vector<std::array<glm::vec3, 3>> kOne = {
     {glm::vec3(3.2f, 2.1f, 0.5f), {29.7f, 5.3f, 0.5f}, {9.9f, 27.8f, 0.5f}}};
 
+// 0 times any weight is 0: whether alpha is tested in float or in codes, no fragment passes.
+TEST(OracleConventions, AnAlphaOfZeroIsZeroInAnyArithmetic) {
+  Scene scene = window_scene(kOne);
+  AlphaTest test;
+  test.func = DepthFunc::greater, test.reference = 0;
+  scene.draws[0].alpha_test = test;
+  const auto answers_at = [&](float alpha) {
+    for (glm::vec4& color : scene.meshes[0].colors) color.a = alpha;
+    C in_float;
+    in_float.alpha_test = C::AlphaTest::in_float;
+    return legal(scene, in_float).at(14, 12).size();
+  };
+  EXPECT_EQ(answers_at(0), 1u) << "the background";
+  EXPECT_EQ(answers_at(1e-9f), 2u) << "may be rounded to 0, or may not";
+  EXPECT_EQ(answers_at(1), 1u);
+}
+
 TEST(OracleConventions, ACoarserGridLeavesMorePixelsOpen) {
   const Scene scene = window_scene(kOne);
   C of_4, of_none;

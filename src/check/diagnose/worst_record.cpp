@@ -101,6 +101,10 @@ struct ColumnPrinter {
   template <class T>
   void beside(const std::string& name, const T& a, const T& b) {
     if (!is_told(name, a)) return;
+    if constexpr (std::is_same_v<T, double>) {
+      if (std::isnan(a) || std::isnan(b))
+        return out.push_back(fmt::format("{} {}, expected {}", name, value_text(name, a), value_text(name, b)));
+    }
     if constexpr (std::is_same_v<T, bool>) {
       const auto yes = [](bool v) { return v ? "yes" : "no"; };
       if (a != b) out.push_back(fmt::format("{}: {}, expected {}", name, yes(a), yes(b)));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/require_fitting.h"
 #include "check/compare/compare_bits.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
@@ -31,7 +32,9 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
       continue;
     }
     if (shown != nullptr) {
-      const std::string lacking = lacking_per_stage(scene, *shown, stage);
+      std::string lacking = lacking_per_stage(scene, *shown, stage);
+      const std::string varying = lacking_varying(scene, stage, candidate);
+      if (lacking.empty() && !varying.empty()) lacking = fmt::format("it shows no {}", varying);
       if (!lacking.empty()) {
         c.skip(name, stage, Outcome::unsupported, lacking);
         continue;

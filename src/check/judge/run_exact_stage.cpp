@@ -51,6 +51,7 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
   if (stage == Stage::clip) return compare_clipped(c, a, b, factor, is_lit(v));
   if (stage == Stage::window) return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c));
+  if (c.foreign && v == Varying::normal) stretch_unit_normals(a.attributes, b.attributes);
   return compare_attributes(a, b, factor, from_origin(c, stage), c.conventions);
 }
 

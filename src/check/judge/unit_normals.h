@@ -14,4 +14,8 @@ Records<double> with_unit_normals(const Scene& scene, Records<double> records, O
 /// The candidate's records for comparisons of stage vertex: its own, or of a stranger, in `made`, with unit normals.
 const Records<double>& vertex_records(const Case& c, Records<double>& made);
 
+/// Gives interpolated normals of unit length, within 2^-16, the lengths of the expected ones: a stranger may normalize
+/// them as it interpolates. Others stay.
+void stretch_unit_normals(std::vector<Attributes<double>>& normals, const std::vector<Attributes<double>>& expected);
+
 }  // namespace plumbline::check

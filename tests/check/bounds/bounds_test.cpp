@@ -227,6 +227,8 @@ TEST(Bounds, OfPiecesAreTheLargest) {
     });
   }
   EXPECT_GT(pieces, 3000u);
+  EXPECT_LT(100 * depth_error_of_pieces(in_float, 0.05, 1e-4, window),
+            depth_error_of_pieces(in_float, 0.05, 1, window));
   EXPECT_EQ(depth_error_of_pieces(in_double, 0, 1, window), 0);
   EXPECT_EQ(depth_error_of_pieces(in_float, 0, 1, window), kInfinite);
 }

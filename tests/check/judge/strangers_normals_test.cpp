@@ -1,4 +1,4 @@
-// Normals of a stranger: of any length where the draw has them normalized.
+// Normals of a stranger: of any length where the draw has them normalized. Varyings that a stranger does not show.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -13,24 +13,44 @@
 namespace plumbline::check {
 namespace {
 
-// The outcome of a stage's row where a stranger's n_eye is changed.
-Outcome outcome_of(const std::string& scene_name, Stage stage, const std::function<void(Vec3<double>&)>& change) {
+// The outcome of a stage's row where a stranger's capture is changed.
+Outcome outcome_of(const std::string& scene_name, Stage stage, const std::function<void(Capture&)>& change) {
   const Scene scene = suite_scene(scene_name);
   const auto exact = exact::make_exact();
   const Reference references[] = {{"exact", exact.get()}};
-  OursAsAnothers other([&](Capture& capture) {
-    for (Vertex<double>& v : capture.records.vertices) change(v.n_eye);
-  });
+  OursAsAnothers other(change);
   for (const Comparison& c : judge_single(scene, other, references).comparisons) {
     if (c.stage == stage && c.judge.kind == Kind::per_stage) return c.outcome;
   }
   return Outcome::unsupported;
 }
 
+// The same where its n_eye are changed.
+Outcome outcome_of(const std::string& scene_name, Stage stage, const std::function<void(Vec3<double>&)>& change) {
+  return outcome_of(scene_name, stage, [&](Capture& capture) {
+    for (Vertex<double>& v : capture.records.vertices) change(v.n_eye);
+  });
+}
+
+TEST(StrangersNormals, MayBeNormalizedAsTheyAreInterpolated) {
+  const auto outcome = [](double length, bool turned) {
+    return outcome_of("phong/squashed", Stage::attributes, [=](Capture& capture) {
+      for (Vec4<double>& n : capture.records.varyings[Varying::normal].fragments) {
+        n *= length / glm::length(Vec3<double>(n));
+        if (turned) std::swap(n.x, n.y);
+      }
+    });
+  };
+  EXPECT_NE(outcome(1, false), Outcome::different);
+  EXPECT_EQ(outcome(1, true), Outcome::different);
+  EXPECT_EQ(outcome(2, false), Outcome::different);
+  EXPECT_EQ(outcome(0, false), Outcome::different);
+}
+
 TEST(StrangersNormals, MayHaveAnyLengthWhereTheyAreNormalized) {
   for (const Stage stage : {Stage::vertex, Stage::light}) {
     const auto outcome = [&](double by) {
-      return outcome_of("light/highlight_half_vector", stage, [=](auto& n) { n *= by; });
+      return outcome_of("light/highlight_half_vector", stage, [=](Vec3<double>& n) { n *= by; });
     };
     EXPECT_NE(outcome(1), Outcome::different) << name_of(stage);
     EXPECT_EQ(outcome(3), outcome(1)) << name_of(stage);
@@ -42,15 +62,31 @@ TEST(StrangersNormals, MayHaveAnyLengthWhereTheyAreNormalized) {
 }
 
 TEST(StrangersNormals, MayHaveAnyLengthWhereFragmentsAreLit) {
-  const auto outcome = [](double by) { return outcome_of("phong/squashed", Stage::vertex, [=](auto& n) { n *= by; }); };
+  const auto outcome = [](double by) {
+    return outcome_of("phong/squashed", Stage::vertex, [=](Vec3<double>& n) { n *= by; });
+  };
   EXPECT_EQ(outcome(1), Outcome::within);
   EXPECT_EQ(outcome(3), Outcome::within);
   EXPECT_EQ(outcome(-3), Outcome::different);
 }
 
+TEST(StrangersVaryings, ThatAreLackingAreNamed) {
+  const Scene scene = suite_scene("light/two_sided_culled");
+  const auto exact = exact::make_exact();
+  const Reference references[] = {{"exact", exact.get()}};
+  OursAsAnothers other([](Capture& capture) { capture.records.varyings[Varying::back_color].vertices.clear(); });
+  const SceneVerdict verdict = judge_single(scene, other, references);
+  const auto clip = std::ranges::find_if(verdict.comparisons, [](const Comparison& c) {
+    return c.stage == Stage::clip && c.judge.kind == Kind::per_stage;
+  });
+  ASSERT_NE(clip, verdict.comparisons.end());
+  EXPECT_EQ(clip->outcome, Outcome::unsupported);
+  EXPECT_EQ(clip->note, "it shows no varyings.back_color.vertices");
+}
+
 TEST(StrangersNormals, HaveTheirLengthWhereTheyAreNot) {
   const auto outcome = [](double by) {
-    return outcome_of("light/normals_grown", Stage::vertex, [=](auto& n) { n *= by; });
+    return outcome_of("light/normals_grown", Stage::vertex, [=](Vec3<double>& n) { n *= by; });
   };
   EXPECT_EQ(outcome(1), Outcome::within);
   EXPECT_EQ(outcome(3), Outcome::different);
