@@ -46,20 +46,36 @@ Texture texture_of(int size, auto code) {
   return out;
 }
 
+// Share of a texture between its first and its last texel's centre, where no wrap mode counts: a renderer has one or the
+// other. Weights there are multiples of 2^-13: none of fewer bits holds them.
+constexpr float kMiddle = 61.0f / 64;
+Plane<glm::vec4> middle_of(Prober& prober, const std::string& name, Texture texture) {
+  const float side = 1 / static_cast<float>(texture.levels[0].width), least = side / 2;
+  const float most = least + (1 - side) * kMiddle;
+  texture.sampler.min = MinFilter::linear, texture.sampler.mag = MagFilter::linear;
+  try {
+    return prober.draw(textured_frame(name, texture, most, least)).color;
+  } catch (const Unsupported&) {
+    texture.sampler.wrap_s = texture.sampler.wrap_t = Wrap::repeat;
+    return prober.draw(textured_frame(name, texture, most, least)).color;
+  }
+}
+// Texels from the first one's centre, of `size` in a row, at a pixel of middle_of().
+double texels_at(double pixel, int size) { return (size - 1) * static_cast<double>(kMiddle) * pixel / kTexturedSize; }
+
 // Errors of the weights between a black texel and a white one, at each column.
 struct WeightErrors {
   double least = std::numeric_limits<double>::infinity(), most = -least, mean = 0;
 };
 WeightErrors weight_errors(Prober& prober) {
-  Texture texture = texture_of(2, [](int x, int) { return 255 * x; });
-  texture.sampler.min = MinFilter::linear, texture.sampler.mag = MagFilter::linear;
-  constexpr float kLeast = 0.25f, kMost = kLeast + 0.5f * 61 / 64;
-  const Plane<glm::vec4> color = prober.draw(textured_frame("texture_ramp", texture, kMost, kLeast)).color;
+  const Plane<glm::vec4> color = middle_of(prober, "texture_ramp", texture_of(2, [](int x, int) { return 255 * x; }));
   WeightErrors out;
   for (int x = 0; x < kTexturedSize; ++x) {
-    const double share = (x + prober.learned.conventions.sample.x) / kTexturedSize * 61 / 64,
+    if (x == kTexturedSize / 2) continue;  // on the diagonal
+    const double share = texels_at(x + prober.learned.conventions.sample.x, 2),
                  error = static_cast<double>(color(x, kTexturedSize / 2).r) - share;
-    out.least = std::min(out.least, error), out.most = std::max(out.most, error), out.mean += error / kTexturedSize;
+    out.least = std::min(out.least, error), out.most = std::max(out.most, error),
+    out.mean += error / (kTexturedSize - 1);
   }
   return out;
 }
@@ -77,17 +93,14 @@ void learn_weights(Prober& prober) {
   const ConventionWords words = words_of("texture_bits");
   if (!prober.are_linear) return prober.open(words, kNotLinear);
   const auto code = [](int x, int y) { return (x * 83 + y * 151 + 11) % 256; };
-  Texture texture = texture_of(4, code);
-  texture.sampler.min = MinFilter::linear, texture.sampler.mag = MagFilter::linear;
-  constexpr float kMost = 61.0f / 64;  // weights are multiples of 2^-11: none of fewer bits holds them
-  const Plane<glm::vec4> color = prober.draw(textured_frame("texture_weights", texture, kMost)).color;
+  const Plane<glm::vec4> color = middle_of(prober, "texture_weights", texture_of(4, code));
   double most = 0, highest = -std::numeric_limits<double>::infinity();
   double step = 0;  // of the coarsest weights that explain each texel
   const C& c = prober.learned.conventions;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
-      const glm::dvec2 at = 4.0 * kMost * (glm::dvec2(x, y) + c.sample) / static_cast<double>(kTexturedSize) - 0.5,
-                       low = glm::floor(at);
+      if (x == y) continue;  // on the diagonal, which may be nobody's
+      const glm::dvec2 at(texels_at(x + c.sample.x, 4), texels_at(y + c.sample.y, 4)), low = glm::floor(at);
       const glm::dvec2 share = at - low;
       const auto grey = [&](int dx, int dy) {
         const auto inside = [](double v) { return std::clamp(static_cast<int>(v), 0, 3); };
@@ -104,7 +117,8 @@ void learn_weights(Prober& prober) {
       step = std::max(step, (std::abs(off) - 0.5) / (along_x + along_y + 1.5 * 255));
     }
   }
-  const std::string evidence = fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * kTexturedSize, most);
+  const std::string evidence =
+      fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * (kTexturedSize - 1), most);
   // Weights of few bits are off towards either neighbour: no texel is above the exact one where mixes are truncated.
   if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");
   const bool are_float = most <= (c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01);
@@ -229,7 +243,7 @@ void learn_magnification(Prober& prober) {
   const Plane<glm::vec4> color = prober.draw(textured_frame("magnification", texture, most)).color;
   std::size_t mixed = 0, unmixed = 0;
   for (int x = 2; x < 48; ++x) {
-    const float red = color(x, 8).r;
+    const float red = color(x, 56).r;
     mixed += red > 0.05f && red < 0.95f ? 1 : 0;
     unmixed += std::abs(red) <= 0.05f || std::abs(red - 1) <= 0.05f ? 1 : 0;
   }
@@ -249,7 +263,7 @@ void learn_half_way(Prober& prober) {
     texture.sampler.min = MinFilter::nearest_mipmap_nearest, texture.sampler.mag = MagFilter::nearest;
     texture.sampler.min_lod = texture.sampler.max_lod = static_cast<float>(i) + 1.5f;
     const Plane<glm::vec4> color = prober.draw(textured_frame("half_way", texture, 1)).color;
-    levels[static_cast<std::size_t>(i)] = std::round(255 * static_cast<double>(color(8, 8).r) / 40);
+    levels[static_cast<std::size_t>(i)] = std::round(255 * static_cast<double>(color(8, 4).r) / 40);
   }
   const std::string evidence =
       fmt::format("1.5, 2.5 and 3.5 take levels {:.0f}, {:.0f} and {:.0f}", levels[0], levels[1], levels[2]);

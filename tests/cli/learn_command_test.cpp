@@ -119,13 +119,15 @@ TEST_F(Cli, a_failure_is_repeated_by_the_conventions_too) {
 }
 
 TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
-  write(at("c.json"), declared(R"("open": ["blending"], "unexplained": ["one scene drawn twice differs"])"));
+  write(at("c.json"), declared(R"("open": ["blending", "texture_bits", "tie_rule"], "texture_bits": 10,
+                                  "unexplained": ["one scene drawn twice differs"])"));
   const std::string by = kLearnedProgram + " --conventions " + at("c.json");
   const Outcome check = plumb("check " + kScenes + "cull" + by);
   EXPECT_EQ(check.code, 1) << check.text;
   EXPECT_TRUE(check.says("no convention: one scene drawn twice differs\n")) << check.text;
   EXPECT_TRUE(check.says("the scenes hold: FAILED by conventions or expectations alone\n")) << check.text;
-  EXPECT_TRUE(check.says("open in " + at("c.json") + ", and judged as OpenGL's: blending\n")) << check.text;
+  EXPECT_TRUE(check.says("open in " + at("c.json") + ", and judged as OpenGL's: blending\n"))
+      << "texture_bits has got a value, and of tie_rule another line tells: " << check.text;
   const Outcome diagnose = plumb("diagnose " + kSharedEdges + by);
   EXPECT_EQ(diagnose.code, 1) << diagnose.text;
   EXPECT_TRUE(diagnose.says("no convention: one scene drawn twice differs\n")) << diagnose.text;

@@ -307,6 +307,19 @@ TEST(Learn, TexturesThatNoConventionExplainsAreFindings) {
   }
 }
 
+// A renderer whose alpha is always blended by the factor one.
+TEST(Learn, BlendingShowsByEitherFactorOfAlpha) {
+  OfAlteredScenes coverage;
+  coverage.before = [](Scene& scene) {
+    for (const Draw& draw : scene.draws) {
+      if (draw.merge.blend && draw.merge.blend->alpha.source != BlendFactor::one) throw Unsupported("alpha's factor");
+    }
+  };
+  const C found = learn(coverage).conventions;
+  EXPECT_EQ(std::ranges::count(found.open, "blending"), 0);
+  EXPECT_EQ(found.blending, C::Blending::in_float);
+}
+
 // Mixes of texels in codes: truncated each time they are below the exact ones; rounded, they are like few bits' weights.
 TEST(Learn, MixesThatTruncateAreNoWeightsOfFewBits) {
   const auto found = [](double most_above) {

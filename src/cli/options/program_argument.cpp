@@ -198,11 +198,32 @@ std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program) {
 
 Conventions conventions_of(const std::string& file) { return file.empty() ? undeclared() : read_conventions(file); }
 
+namespace {
+
+bool is_opengls(const Conventions& conventions, std::string_view name) {
+  const Conventions opengls;
+  bool out = true;
+  const auto compare = [&](const ConventionWords& words, auto member) {
+    if (words.name == name) out = conventions.*member == opengls.*member;
+  };
+  each_choice(compare);
+  each_number_of_bits(compare);
+  compare(kSampleWords, &Conventions::sample);
+  compare(kOffsetWords, &Conventions::offset_unit);
+  return out;
+}
+
+}  // namespace
+
 std::string convention_notes(const std::string& file) {
   const Conventions conventions = conventions_of(file);
   std::string out;
-  if (!conventions.open.empty())
-    out += fmt::format("open in {}, and judged as OpenGL's: {}\n", file, fmt::join(conventions.open, ", "));
+  // A key may have got its value since plumb learn left it open.
+  std::vector<std::string> open = conventions.open;
+  std::erase_if(open, [&](const std::string& name) {
+    return !is_opengls(conventions, name) || (name == "tie_rule" && !settles_ties(conventions));
+  });
+  if (!open.empty()) out += fmt::format("open in {}, and judged as OpenGL's: {}\n", file, fmt::join(open, ", "));
   if (!settles_ties(conventions))
     out += fmt::format(
         "not judged: which triangle owns a sample on an edge ({})\n",
