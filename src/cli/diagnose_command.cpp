@@ -154,13 +154,15 @@ std::string lines_of_holes(const DiagnoseOptions& o, const Scene& scene, const C
   return (text.empty() ? "" : "\n" + text) + (may_ask ? "--each-primitive judges coverage\n" : "");
 }
 
-// Pointer to `plumb learn`: another renderer's frame is wrong, no conventions are declared, and no known fault draws
-// such a frame.
+// Line where another renderer's frame is wrong, and no known fault draws such a frame; a pointer to `plumb learn` where
+// no conventions are declared.
 std::string hint_where_unexplained(const DiagnoseOptions& o, const check::Diagnosis& diagnosis,
                                    const std::string& faults) {
   const bool is_ours = o.candidate.command.empty() && o.folder.empty();
-  if (is_ours || !o.candidate.conventions.empty() || !faults.empty() || holds(diagnosis)) return "";
-  return "\nno known fault draws such a frame; " + hint_of_conventions(o.candidate.conventions);
+  if (is_ours || !faults.empty() || holds(diagnosis)) return "";
+  if (o.candidate.conventions.empty())
+    return "\nno known fault draws such a frame; " + hint_of_conventions(o.candidate.conventions);
+  return check::is_by_frame_alone(diagnosis.verdict) ? "\nno known fault draws such a frame\n" : "";
 }
 
 // In a worker: writes the files.

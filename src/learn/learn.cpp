@@ -68,6 +68,10 @@ Learned learn(Renderer& renderer) {
   learn_rows_by_any(prober);
   int failures = 0;
   for (const Probe& probe : probes()) {
+    if (prober.sees_nothing) {
+      leave_open(prober, probe, "nothing is seen of the first probe");
+      continue;
+    }
     try {
       probe.find(prober);
     } catch (const Unsupported& e) {

@@ -181,7 +181,9 @@ void learn_rows(Prober& prober) {
       in_quarter[static_cast<std::size_t>(y / 8 * 2 + x / 8)] += is_white(color(x, y)) ? 1 : 0;
   }
   const glm::vec4 first = color(0, 0);
-  if (std::ranges::all_of(color.values(), [&](const glm::vec4& c) { return c == first || !(c == c); }))
+  prober.sees_nothing =
+      std::ranges::all_of(color.values(), [&](const glm::vec4& c) { return c == first || !(c == c); });
+  if (prober.sees_nothing)
     prober.unexplained("a white rectangle in a quarter of a black picture: every pixel has one colour or is NaN");
   const std::size_t most = *std::ranges::max_element(in_quarter),
                     all = std::accumulate(in_quarter.begin(), in_quarter.end(), std::size_t{0});

@@ -56,6 +56,8 @@ class Prober {
   DepthFunc depth_func = DepthFunc::always;
   /// False: colours are codes away from linear ones, by no known encoding. What they are mixed of then shows no more.
   bool are_linear = true;
+  /// The first probe's picture has one colour: no other probe is drawn.
+  bool sees_nothing = false;
 
  private:
   Capture captured(const Scene& probe);  // names the probe where the renderer fails

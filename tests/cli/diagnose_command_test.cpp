@@ -96,6 +96,12 @@ TEST_F(Cli, diagnose_names_learn_where_no_known_fault_explains_a_programs_frame)
   const Outcome known = plumb(judged + " --fault window.half_pixel_off'");
   EXPECT_EQ(known.code, 1) << known.text;
   EXPECT_FALSE(known.says(said)) << known.text;
+  write(at("c.json"), R"({"format": "plumbline conventions", "version": 1})");
+  const Outcome declared = plumb("diagnose " + kSharedEdges + " --against exact --conventions " + at("c.json") +
+                                 " --program '" PLUMBLINE_C_RENDERER
+                                 " {input} {output} && dd if=/dev/zero of={output}/planes.color.bin bs=1000 count=20 "
+                                 "conv=notrunc'");
+  EXPECT_TRUE(declared.says("\nno known fault draws such a frame\n")) << declared.text;
 }
 
 TEST_F(Cli, diagnose_of_a_picture_names_the_bugs_that_draw_it) {

@@ -307,6 +307,16 @@ TEST(Learn, TexturesThatNoConventionExplainsAreFindings) {
   }
 }
 
+TEST(Learn, NothingIsFoundInPicturesOfOneColor) {
+  OfAlteredScenes blank;
+  blank.after = [](const Scene&, Capture& c) { std::ranges::fill(c.planes.color.values(), glm::vec4(0, 0, 0, 1)); };
+  const Learned found = learn(blank);
+  EXPECT_EQ(found.pictures.size(), 1u);
+  EXPECT_EQ(found.conventions.unexplained.size(), 2u) << "the picture, and its rows";
+  const auto is_found = [](const LearnedRow& row) { return row.value != "open" && row.value != "none fits"; };
+  EXPECT_TRUE(std::ranges::none_of(found.rows, is_found));
+}
+
 // A renderer whose alpha is always blended by the factor one.
 TEST(Learn, BlendingShowsByEitherFactorOfAlpha) {
   OfAlteredScenes coverage;
