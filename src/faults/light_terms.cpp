@@ -1,4 +1,5 @@
 // Mistakes in a term of the light equation, at the vertices (stage 2) and per fragment (stage 9).
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -20,8 +21,9 @@ struct LitPoint {
   EyeLight light;
   Vec3<float> p_eye, n_eye;
   float shininess;
-  float share = 1;  ///< of the light's intensity
-  float shine = 1;  ///< of its specular colour
+  std::size_t number;  ///< of the light
+  float share = 1;     ///< of the light's intensity
+  float shine = 1;     ///< of its specular colour
 };
 
 /// The light equation as a sum of lights, each of whose points is changed.
@@ -30,7 +32,7 @@ Color<float> lit_light_by_light(const Illumination& illumination, const Reflecta
                                 const Vec3<float>& p_eye, const Vec3<float>& n_eye) {
   Color<float> sum = pipeline::lit<float, float>({illumination.model, {}}, reflectance, p_eye, n_eye);
   for (std::size_t i = 0; i < illumination.lights.size(); ++i) {
-    LitPoint point{illumination.lights[i], p_eye, n_eye, reflectance.shininess};
+    LitPoint point{illumination.lights[i], p_eye, n_eye, reflectance.shininess, i};
     change(point, illumination.model);
     Illumination one{illumination.model, {}};
     one.lights.push_back(point.light);
@@ -142,6 +144,16 @@ constexpr auto kDirectionReversed = [](LitPoint& at, const LightModel&) {
 
 constexpr auto kDirectionAsPoint = [](LitPoint& at, const LightModel&) { at.light.directional = false; };
 
+constexpr auto kFirstLightAlone = [](LitPoint& at, const LightModel&) { at.share = at.number == 0 ? 1 : 0; };
+
+constexpr auto kNoSquare = [](LitPoint& at, const LightModel&) { at.light.attenuation.z = 0; };
+
+constexpr auto kConeWithoutExponent = [](LitPoint& at, const LightModel&) { at.light.exponent = 0; };
+
+constexpr auto kShineByCosine = [](LitPoint& at, const LightModel&) {
+  at.shine = std::max(pipeline::dot(at.n_eye, pipeline::unit(towards(at))), 0.0f);
+};
+
 constexpr auto kNoChange = [](LitPoint&, const LightModel&) {};
 
 template <auto change>
@@ -164,6 +176,11 @@ constexpr std::array kTerms = {
                                          "a directional light shines from the side that it shines to"),
     term_at_vertices<kDirectionAsPoint>("light.direction_as_point",
                                         "a directional light is a point light at its direction's numbers"),
+    term_at_vertices<kFirstLightAlone>("light.first_light_alone", "lights but the first are left out"),
+    term_at_vertices<kNoSquare>("light.no_square_of_distance", "attenuation lacks its term of the distance's square"),
+    term_at_vertices<kConeWithoutExponent>("light.no_spot_exponent",
+                                           "spot lights are as bright at their cone's border"),
+    term_at_vertices<kShineByCosine>("light.highlight_by_n_l", "highlights are multiplied by N.L"),
     Fault{"light.not_clamped", "lit colours beyond 1 are interpolated, and clamped at the fragments", Stage::light,
           put<&Stages::light, at_vertices<kNoChange, false>>},
     term_per_fragment<kAbsoluteCosine>("shade.n_l_absolute",
@@ -179,6 +196,13 @@ constexpr std::array kTerms = {
     term_per_fragment<kDirectionAsPoint>(
         "shade.direction_as_point",
         "light per fragment: a directional light is a point light at its direction's numbers"),
+    term_per_fragment<kFirstLightAlone>("shade.first_light_alone",
+                                        "light per fragment: lights but the first are left out"),
+    term_per_fragment<kNoSquare>("shade.no_square_of_distance",
+                                 "light per fragment: attenuation lacks its term of the distance's square"),
+    term_per_fragment<kConeWithoutExponent>("shade.no_spot_exponent",
+                                            "light per fragment: spot lights are as bright at their cone's border"),
+    term_per_fragment<kShineByCosine>("shade.highlight_by_n_l", "light per fragment: highlights are multiplied by N.L"),
 };
 
 }  // namespace
