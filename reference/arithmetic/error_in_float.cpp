@@ -20,15 +20,19 @@ WindowCorners window_corners(const Projected& scene, const Triangle& t) {
 
 }  // namespace
 
-double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, double altitude) {
+double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, const PieceAltitudes& altitudes) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
   const glm::dvec2 size(scene.width, scene.height);
+  const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane));
+  // A plane through corners that are off by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
+  const auto of_pieces = [&](double altitude, glm::dvec2 extent) {
+    return depth_error_of_pieces(arithmetic, altitude, slope * (1 + 4 * t.reach / altitude), extent);
+  };
   double out = 0;
   if (t.cut) {
-    // A plane through corners that are off by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
-    const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane));
-    out = depth_error_of_pieces(arithmetic, altitude, slope * (1 + 4 * t.reach / altitude), size);
+    out = of_pieces(altitudes.framed, size);
+    if (t.guarded.extent != glm::dvec2(0)) out = std::max(out, of_pieces(altitudes.guarded, t.guarded.extent));
   }
   if (!t.ahead) return out;
   return std::max(out, depth_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size));

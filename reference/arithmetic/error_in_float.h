@@ -7,9 +7,13 @@
 
 namespace plumbline::math {
 
-/// Error of a triangle's depth at the ray d [window z]; if the triangle is cut, of its pieces' depths, too, whose
-/// altitudes are at least `altitude` [pixels]. 0 for a renderer in double; infinite where a piece may have no area.
-double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double altitude);
+/// Least altitudes of a cut triangle's pieces [pixels]: cut at the frame's sides too, or guarded (Triangle).
+struct PieceAltitudes {
+  double framed, guarded;
+};
+/// Error of a triangle's depth at the ray d [window z]; if the triangle is cut, of its pieces' depths, too. 0 for a
+/// renderer in double; infinite where a piece may have no area.
+double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, const PieceAltitudes& altitudes);
 
 /// shares_error() at the ray d, of the whole triangle: a bound of its pieces would leave open every colour of a cut
 /// triangle, and what is wrong with cuts. 0 for a triangle that reaches behind the eye.

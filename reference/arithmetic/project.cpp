@@ -13,6 +13,7 @@
 #include "reference/arithmetic/matrices.h"
 #include "reference/arithmetic/passes.h"
 #include "reference/arithmetic/polygon_offset.h"
+#include "reference/arithmetic/widths.h"
 
 namespace plumbline::math {
 
@@ -137,17 +138,14 @@ std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, dou
   return inside;
 }
 
-/// Most corners of a triangle cut by six planes: exactly 9, but where rounding makes a polygon of huge coordinates
-/// cross a plane many times, each plane may leave half as many again: 3, 4, 6, 9, 13, 19, 28.
-constexpr std::size_t kMostCorners = 28;
-
 struct Polygon {
   std::array<glm::dvec3, kMostCorners> v;
   std::size_t count = 0;
 };
 
-/// The triangle's part inside the view volume, in double.
-Polygon visible_part(const Projected& scene, const std::array<const Corner*, 3>& corners, bool& cut) {
+/// The triangle's part inside the first `planes` planes of the view volume, in double.
+Polygon part_inside(const Projected& scene, const std::array<const Corner*, 3>& corners, std::size_t planes,
+                    bool& cut) {
   struct Vertex {
     glm::dvec3 v;
     std::array<double, 6> inside;
@@ -155,7 +153,7 @@ Polygon visible_part(const Projected& scene, const std::array<const Corner*, 3>&
   std::array<Vertex, kMostCorners> in, out;
   std::size_t count = 3;
   for (std::size_t i = 0; i < 3; ++i) in[i] = {corners[i]->v, inside_planes(scene, *corners[i], 0, scene.depth_clamp)};
-  for (std::size_t plane = 0; plane < 6; ++plane) {
+  for (std::size_t plane = 0; plane < planes; ++plane) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Vertex &a = in[i], &b = in[(i + 1) % count];
@@ -175,41 +173,6 @@ Polygon visible_part(const Projected& scene, const std::array<const Corner*, 3>&
   polygon.count = count;
   for (std::size_t i = 0; i < count; ++i) polygon.v[i] = in[i].v;
   return polygon;
-}
-
-double altitude(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-  const double area = std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-  return longest > 0 ? area / longest : 0;
-}
-
-struct Widths {
-  double whole;   ///< the polygon's width: its smallest extent across any direction
-  double pieces;  ///< the smallest altitude of any triangle of its corners
-  double fat;     ///< and of those above `thin`
-};
-Widths widths(const std::array<glm::dvec2, kMostCorners>& p, std::size_t count, double thin) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  Widths out{kNone, kNone, kNone};
-  for (std::size_t a = 0; a < count; ++a) {
-    const glm::dvec2 along = p[(a + 1) % count] - p[a];
-    if (const double length = glm::length(along); length > 0) {
-      double extent = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        extent = std::max(extent, std::abs(along.x * (p[i].y - p[a].y) - along.y * (p[i].x - p[a].x)) / length);
-      }
-      out.whole = std::min(out.whole, extent);
-    }
-    for (std::size_t b = a + 1; b < count; ++b) {
-      for (std::size_t c = b + 1; c < count; ++c) {
-        const double height = altitude(p[a], p[b], p[c]);
-        out.pieces = std::min(out.pieces, height);
-        if (height > thin) out.fat = std::min(out.fat, height);
-      }
-    }
-  }
-  if (!std::isfinite(out.whole)) out.whole = 0;
-  return out;
 }
 
 void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
@@ -251,18 +214,34 @@ void set_growth(const Projected& scene, Triangle& t) {
   }
 }
 
+/// Sets `guarded`: the pieces of a renderer that leaves the sides to the raster.
+void set_guarded(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
+  bool cut = false;
+  const Polygon part = part_inside(scene, c, 2, cut);
+  std::array<glm::dvec2, kMostCorners> p_window;
+  glm::dvec2 farthest(0.5 * scene.width, 0.5 * scene.height);
+  for (std::size_t i = 0; i < part.count; ++i) {
+    p_window[i] = glm::dvec2(part.v[i]) / std::max(part.v[i].z, kFloatRounding * t.size.w);
+    farthest = glm::max(farthest, glm::abs(p_window[i]));
+  }
+  const Widths width = widths(p_window, part.count, 2 * t.reach);
+  t.guarded = {width.pieces, width.fat, 2.0 * farthest};
+}
+
 void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   const std::array<const Corner*, 3> c{&scene.corners[t.corner[0]], &scene.corners[t.corner[1]],
                                        &scene.corners[t.corner[2]]};
   // Two corners at one place: zero area in every renderer.
   if (c[0]->point == c[1]->point || c[1]->point == c[2]->point || c[2]->point == c[0]->point) return;
-  const Polygon part = visible_part(scene, c, t.cut);
+  const Polygon part = part_inside(scene, c, 6, t.cut);
   if (part.count < 3) return;
   set_planes(c, t);
+  bool cut_in_depth = false;
   for (const Corner* corner : c) {  // a corner on a plane of the view volume may or may not be cut
     const auto inside = inside_planes(scene, *corner, 0, scene.depth_clamp);
     const auto error = plane_errors(scene, corner->size, 0);
     for (std::size_t p = 0; p < 6; ++p) t.cut |= inside[p] < 4 * error[p];
+    cut_in_depth |= inside[0] < 4 * error[0] || inside[1] < 4 * error[1];
   }
   t.roundings = t.cut ? kRoundingsCut : kRoundingsUncut;
   t.ahead = true;
@@ -289,6 +268,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   const Widths width = widths(p_window, part.count, 2 * t.reach);
   t.altitude = t.cut ? width.pieces : width.whole;
   t.fat_altitude = t.cut ? width.fat : width.whole;
+  if (cut_in_depth) set_guarded(scene, c, t);
   t.offset = polygon_offset(scene, t, draw.polygon_offset);
   t.thin = t.flat || width.whole <= 2 * t.reach;
   const bool front = t.sign > 0;

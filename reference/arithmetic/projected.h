@@ -68,8 +68,13 @@ struct Triangle {
   double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
   double altitude = 0;              ///< [pixels] least altitude of all pieces for which a renderer may set up a plane
   double fat_altitude = 0;  ///< likewise, of pieces above 2 reach: thinner ones may turn over, and lie along the border
-  double reach = 0;         ///< [pixels] largest displacement of a vertex over its visible part
-  double growth = 1;        ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
+  /// Where the near or far plane may cut: pieces cut at these alone, whose corners may lie far outside the window.
+  struct Guarded {
+    double altitude = 0, fat_altitude = 0;  ///< as above
+    glm::dvec2 extent{0};                   ///< [pixels] twice their corners' largest distance from its middle
+  } guarded;
+  double reach = 0;   ///< [pixels] largest displacement of a vertex over its visible part
+  double growth = 1;  ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
 };
 
 /// z_win of a triangle at z_view; the polygon offset is included.

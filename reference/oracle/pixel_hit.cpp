@@ -62,7 +62,7 @@ void set_depth(const PixelSite& site, PixelHit& out) {
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  set_window_depth(t, clamps, lo, hi, weight, error_in_float(scene, t, site.d, site.piece_altitude(out.hit.certain)),
+  set_window_depth(t, clamps, lo, hi, weight, error_in_float(scene, t, site.d, site.piece_altitudes(out.hit.certain)),
                    out);
 }
 

@@ -105,14 +105,16 @@ void PixelSite::place() {
   }
 }
 
-double PixelSite::piece_altitude(bool certain) const {
+PieceAltitudes PixelSite::piece_altitudes(bool certain) const {
   // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
   // is deep inside, far from the triangle's edges, the near and far cuts, and the frame's border (half a pixel away).
   const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
   const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
   const bool deep = certain && border > margin && margin < from_frame &&
                     std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
-  return (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - scene.snap);
+  const double moved_by = 2 * (t.reach - scene.snap);
+  return {(deep ? t.fat_altitude : t.altitude) - moved_by,
+          (deep ? t.guarded.fat_altitude : t.guarded.altitude) - moved_by};
 }
 
 double PixelSite::snap_weight(bool certain) const {
@@ -122,7 +124,7 @@ double PixelSite::snap_weight(bool certain) const {
   // are negative, each by no more than the step over the altitude. A triangle that is cut is drawn in pieces, which
   // have such borders inside it too.
   if (certain && !t.cut) return 1;
-  const double altitude = piece_altitude(certain);
+  const double altitude = piece_altitudes(certain).framed;
   return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
 }
 

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "reference/arithmetic/error_in_float.h"
 #include "reference/arithmetic/project.h"
 
 namespace plumbline::math {
@@ -42,8 +43,8 @@ class PixelSite {
   bool in_reach = false;  ///< a legal renderer may cover the pixel; else `moved` is not set
   glm::dvec2 moved{0};    ///< largest displacement of the triangle by float arithmetic at `nearest` [pixels]
 
-  /// Least altitude of the pieces for which a renderer may set up a plane at this pixel [pixels].
-  double piece_altitude(bool certain) const;
+  /// Least altitudes of the pieces for which a renderer may set up a plane at this pixel.
+  PieceAltitudes piece_altitudes(bool certain) const;
   /// S: factor by which the errors of a plane's corners may grow at a pixel of its triangle; infinite: without bound.
   double snap_weight(bool certain) const;
   /// Whether snapping may turn over the triangle, or the piece of it that covers the pixel.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/float_depth.h"
+#include "reference/arithmetic/error_in_float.h"
 #include "reference/oracle/oracle.h"
 #include "scene/scene.h"
 
@@ -71,6 +72,32 @@ TEST(OracleConventions, AnAlphaOfZeroIsZeroInAnyArithmetic) {
   EXPECT_EQ(answers_at(0), 1u) << "the background";
   EXPECT_EQ(answers_at(1e-9f), 2u) << "may be rounded to 0, or may not";
   EXPECT_EQ(answers_at(1), 1u);
+}
+
+// A renderer that leaves the sides to the raster cuts at the near plane alone: its corners lie far outside the window,
+// and its depths in float are off by more.
+TEST(OracleConventions, CornersOfTheNearPlanesCutsMayLieFarOutside) {
+  Scene scene = window_scene({{glm::vec3(-4, -1, 20), {4, -1, 20}, {0, -1, -1}}});  // a floor, from behind the eye
+  scene.projection = Perspective{60, 0.01f, 100};
+  scene.draws[0].depth_range = {0, 1};
+  C in_float;
+  in_float.depth_arithmetic = C::DepthArithmetic::in_float;
+  const auto width_at = [&](const C& conventions) {
+    const auto answers = legal(scene, conventions).at(kSize / 2, kSize / 4);
+    return answers.empty() ? -1 : answers.back().z_hi - answers.back().z_lo;
+  };
+  Projected projected = project(scene, in_float);
+  Triangle& floor = projected.triangles[0];
+  EXPECT_GT(floor.guarded.extent.y, 10 * kSize);
+  const PieceAltitudes altitudes{floor.altitude, floor.guarded.altitude};
+  const double guarded = error_in_float(projected, floor, {0, -4, 1}, altitudes);
+  floor.guarded.extent = glm::dvec2(0);
+  EXPECT_LT(10 * error_in_float(projected, floor, {0, -4, 1}, altitudes), guarded);
+  EXPECT_GT(width_at(in_float), width_at({}));
+  EXPECT_EQ(
+      project(window_scene({{glm::vec3(-40, -40, 0.5f), {99, 3, 0.5f}, {9, 99, 0.5f}}})).triangles[0].guarded.extent,
+      glm::dvec2(0))
+      << "cut at the sides alone";
 }
 
 TEST(OracleConventions, ACoarserGridLeavesMorePixelsOpen) {
