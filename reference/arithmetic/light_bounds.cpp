@@ -86,7 +86,7 @@ Highlight highlight(const LightModel& model, const Vec3<double>& n, const Ray& r
   return {glm::dot(2 * n_dot_l * n - r.to_light, e), 4 * length * length * (r.condition + 1)};
 }
 
-// The least that a sum of colours may be, by its parts that are certain.
+// Least value of a sum of colours, by its parts that are certain.
 class LeastLight {
  public:
   // A part that may be below 0, as of a material colour that follows a vertex colour extrapolated beyond its triangle.

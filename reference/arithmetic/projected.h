@@ -68,7 +68,7 @@ struct Triangle {
   double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
   double altitude = 0;              ///< [pixels] least altitude of all pieces for which a renderer may set up a plane
   double fat_altitude = 0;  ///< likewise, of pieces above 2 reach: thinner ones may turn over, and lie along the border
-  /// Where the near or far plane may cut: pieces cut at these alone, whose corners may lie far outside the window.
+  /// Pieces cut at the near and far planes alone, where these may cut: corners may lie far outside the window.
   struct Guarded {
     double altitude = 0, fat_altitude = 0;  ///< as above
     glm::dvec2 extent{0};                   ///< [pixels] twice their corners' largest distance from its middle

@@ -21,13 +21,13 @@ inline double altitude(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
   return longest > 0 ? area / longest : 0;
 }
 
-/// [pixels]
+/// Widths of a polygon [pixels].
 struct Widths {
   double whole;   ///< the polygon's width: its smallest extent across any direction
   double pieces;  ///< the smallest altitude of any triangle of its corners
   double fat;     ///< and of those above `thin`
 };
-/// Of the first `count` corners.
+/// Widths of the polygon of the first `count` corners. `thin`: altitudes up to it do not count for Widths::fat.
 inline Widths widths(const std::array<glm::dvec2, kMostCorners>& p, std::size_t count, double thin) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   Widths out{kNone, kNone, kNone};

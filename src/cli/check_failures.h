@@ -26,7 +26,7 @@ std::string settled_line(const std::vector<check::Settled>& settled, std::size_t
 /// Lines of a run's failures, in which the stderr of a program that fails alike on many scenes stands once.
 class RunFailures {
  public:
-  /// `failure`: the lines of the verdict's scene.
+  /// Adds the lines of the verdict's scene, `failure`.
   void add(const check::SceneVerdict& verdict, std::string failure);
   const std::string& text() const { return text_; }
 

@@ -57,7 +57,7 @@ std::size_t open_pixels(const Legal& of) {
 const std::vector<std::array<glm::vec3, 3>> kOne = {
     {glm::vec3(3.2f, 2.1f, 0.5f), {29.7f, 5.3f, 0.5f}, {9.9f, 27.8f, 0.5f}}};
 
-// 0 times any weight is 0: whether alpha is tested in float or in codes, no fragment passes.
+// An alpha of 0 stays 0 by any weights: no fragment passes, whether alpha is tested in float or in codes.
 TEST(OracleConventions, AnAlphaOfZeroIsZeroInAnyArithmetic) {
   Scene scene = window_scene(kOne);
   AlphaTest test;

@@ -196,7 +196,7 @@ std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
   std::vector<Stage> out;
   for (const Stage stage : kAllStages) {
     const bool judged_by_any = was_judged(verdict, stage);
-    // Of a scene without the stage, nobody says anything of it.
+    // Nobody says anything of a stage that the scene does not have.
     const bool of_some = row_of(stage).in_scene != nullptr;
     const bool asked =
         !of_some || std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) { return c.stage == stage; });

@@ -25,7 +25,7 @@ struct GivenFrame : ColorAndDepth {
   /// 1: the pixel is legal; where it differs from ours, it counts neither for a fault nor against one. Empty: not
   /// known.
   Plane<std::uint8_t> is_legal{};
-  /// The same of the colour alone: its depth may be wrong.
+  /// Legality of the colour alone: the depth may be wrong.
   Plane<std::uint8_t> is_legal_color{};
   bool has_alpha = false;  ///< alpha is known; else it is not compared
   StageSet right{};        ///< stages that are judged right, or given: their faults are no causes

@@ -208,7 +208,7 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   });
   const auto seen_by = [&](Look look, bool in_pairs) {
     std::vector<Lookalike> nearest = all;
-    // By colour alone, a fault must not put depths off that are right.
+    // Faults by colour alone must not put depths off that are right.
     if (look == kCoarseColor)
       std::erase_if(nearest, [&](const Lookalike& l) { return 10 * l.apart[kCoarseDepth] > 11 * apart[kCoarseDepth]; });
     Lookalikes out = ranked(nearest, apart, look, given.wrong);
@@ -239,8 +239,8 @@ bool tells_legal_colors(const check::Comparison& row) {
   return row.stage == Stage::merge && judges_legality(row.judge, row.stage) && was_compared(row);
 }
 
-// 1 where no row that judges legality finds the pixel wrong; with `colors`, no such row of colours. Empty where no such
-// row judged colours, no row finds a pixel wrong, or one does not list all of its pixels.
+// Plane of 1 where no row that judges legality finds the pixel wrong; with `colors`, no such row of colours. Empty where
+// no such row judged colours, no row finds a pixel wrong, or one does not list all of its pixels.
 Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict, bool colors) {
   if (std::ranges::none_of(verdict.comparisons, tells_legal_colors)) return {};
   Plane<std::uint8_t> out(planes.color.width(), planes.color.height(), 1);

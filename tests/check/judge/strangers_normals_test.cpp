@@ -25,7 +25,7 @@ Outcome outcome_of(const std::string& scene_name, Stage stage, const std::functi
   return Outcome::unsupported;
 }
 
-// The same where its n_eye are changed.
+// The outcome where its n_eye are changed.
 Outcome outcome_of(const std::string& scene_name, Stage stage, const std::function<void(Vec3<double>&)>& change) {
   return outcome_of(scene_name, stage, [&](Capture& capture) {
     for (Vertex<double>& v : capture.records.vertices) change(v.n_eye);
