@@ -197,10 +197,10 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
   group({Stage::vertex, "vertex"}, of(&R::vertices), Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
         Column{"n_eye", &V::n_eye, kDerivable});
   group({Stage::light, "light"}, of(&R::lit), Column{"color", &Lit<double>::color});
-  using C = ClipVertex<double>;
+  using Clipped = ClipVertex<double>;
   group(
       {Stage::clip, "clip", Per::clip_vertex}, [](auto& r) -> auto& { return r.polygons.vertices; },
-      Column{"p_clip", &C::p_clip}, Column{"color", &C::color}, Column{"cut", &C::cut, kDerivable});
+      Column{"p_clip", &Clipped::p_clip}, Column{"color", &Clipped::color}, Column{"cut", &Clipped::cut, kDerivable});
   using P = ClipPolygon;
   group(
       {Stage::clip, "clip.polygon"}, [](auto& r) -> auto& { return r.polygons.polygons; },
