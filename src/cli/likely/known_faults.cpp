@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/likely/ignored_states.h"
+#include "cli/likely/misread_states.h"
 
 namespace plumbline::cli {
 
@@ -171,7 +171,7 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
                  .name = "visibility.farthest_kept",
                  .says = "the depth test is turned round, and the depth cleared to the other end",
                  .of_scene = keep_farthest});
-  std::ranges::move(ignored_states(scene), std::back_inserter(out));
+  std::ranges::move(misread_states(scene), std::back_inserter(out));
   for (const FaultInfo& fault : fault_infos()) {
     if (is_declared(fault.name, given.conventions)) continue;
     const std::string name(fault.name);

@@ -1,4 +1,4 @@
-// Known faults that a frame may show: those of `plumb list faults`, states that are ignored (ignored_states.h), and
+// Known faults that a frame may show: those of `plumb list faults`, states that are ignored (misread_states.h), and
 // faults of a viewport, of a depth test, of writing the file.
 #pragma once
 

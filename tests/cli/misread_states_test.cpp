@@ -7,9 +7,9 @@
 #include <string>
 
 #include "check/diagnose/diagnose.h"
-#include "cli/likely/ignored_states.h"
 #include "cli/likely/known_faults.h"
 #include "cli/likely/lookalikes.h"
+#include "cli/likely/misread_states.h"
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
 #include "tests/check/suite_scenes.h"
@@ -50,7 +50,10 @@ const std::vector<Case> kStates = {{"matrices.transforms_ignored", "cull/both_wi
                                    {"light.lighting_ignored", "light/turned_away"},
                                    {"light.lights_ignored", "light/turned_away"},
                                    {"light.ambient_ignored", "light/turned_away"},
+                                   {"light.ambient_without_material", "light/turned_away"},
                                    {"light.specular_ignored", "light/turned_away"},
+                                   {"light.shininess_doubled", "light/sphere_gouraud"},
+                                   {"light.shininess_halved", "light/sphere_gouraud"},
                                    {"light.emission_ignored", "light/turned_away"},
                                    {"light.two_sides_ignored", "light/two_sided_flat"},
                                    {"light.phong_shading_ignored", "phong/reflection"},
@@ -64,28 +67,35 @@ const std::vector<Case> kStates = {{"matrices.transforms_ignored", "cull/both_wi
                                    {"depth.polygon_offset_ignored", "polygon_offset/beyond_the_near_plane"},
                                    {"texture.filters_ignored", "texture/beyond_one_rgba16"},
                                    {"texture.levels_ignored", "texture/constant_row"},
+                                   {"texture.repeat_for_clamp", "texture/wall_clamp_to_edge"},
+                                   {"texture.repeat_for_mirror", "texture/wall_mirrored_repeat"},
+                                   {"texture.blue_first", "texture/file_png"},
                                    {"shade.attenuation_ignored", "phong/all_at_once"},
                                    {"shade.spot_ignored", "phong/cones_on_a_quad", "matrices"},
                                    {"shade.local_viewer_ignored", "phong/gzrender"},
                                    {"shade.texture_ignored", "texture/borders_at_centres", "light"},
                                    {"shade.fog_ignored", "fog/thick_black", "light"},
+                                   {"shade.fog_exponents_swapped", "fog/exp"},
                                    {"visibility.depth_func_ignored", "depth/functions"},
                                    {"visibility.depth_test_ignored", "depth/interpenetrating"},
                                    {"visibility.depth_mask_ignored", "masks/no_depth"},
                                    {"visibility.clear_depth_ignored", "depth/clear_z16"},
                                    {"visibility.stencil_ignored", "stencil/funcs"},
                                    {"merge.blend_ignored", "frame/rgba16_blend"},
+                                   {"merge.blend_factors_ignored", "blend/factors"},
+                                   {"merge.source_factor_of_one", "blend/factors"},
+                                   {"merge.destination_factor_of_one", "blend/factors"},
                                    {"merge.blend_equation_ignored", "blend/equations"},
                                    {"merge.logic_op_ignored", "logic_op/sixteen_rgba12"},
                                    {"merge.clear_color_ignored", "depth/clear_z16"}};
 
-TEST(IgnoredStates, are_named_by_their_stages_and_as_likely_faults) {
+TEST(MisreadStates, are_named_by_their_stages_and_as_likely_faults) {
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"exact", exact.get()}};
   for (const Case& c : kStates) {
     SCOPED_TRACE(c.fault + " in " + c.scene);
     const Scene scene = suite_scene(c.scene);
-    const std::vector<KnownFault> set = ignored_states(scene);
+    const std::vector<KnownFault> set = misread_states(scene);
     const auto fault = std::ranges::find(set, c.fault, &KnownFault::name);
     ASSERT_NE(fault, set.end());
     Ignoring candidate(*fault);
@@ -99,25 +109,25 @@ TEST(IgnoredStates, are_named_by_their_stages_and_as_likely_faults) {
 }
 
 // Every state of the table is set in some scene of the suite, and the suite sets no other.
-TEST(IgnoredStates, of_the_suite_are_all_tried) {
+TEST(MisreadStates, of_the_suite_are_all_tried) {
   std::set<std::string> in_suite, tried;
   for (const Scene& scene : suite_scenes()) {
-    for (const KnownFault& fault : ignored_states(scene)) in_suite.insert(fault.name);
+    for (const KnownFault& fault : misread_states(scene)) in_suite.insert(fault.name);
   }
   for (const Case& c : kStates) tried.insert(c.fault);
   EXPECT_EQ(in_suite, tried);
 }
 
-TEST(IgnoredStates, at_their_defaults_are_no_faults) {
+TEST(MisreadStates, at_their_defaults_are_no_faults) {
   Scene scene;
   scene.draws.emplace_back();
   scene.draws[0].lit = false;
   scene.draws[0].depth_func = DepthFunc::always;
   std::vector<std::string> names;
-  for (const KnownFault& fault : ignored_states(scene)) names.push_back(fault.name);
+  for (const KnownFault& fault : misread_states(scene)) names.push_back(fault.name);
   EXPECT_EQ(names, std::vector<std::string>{"visibility.depth_func_ignored"}) << "it is as if always were less";
   scene.draws[0].depth_func = DepthFunc::less;
-  for (const KnownFault& fault : ignored_states(scene)) EXPECT_EQ(fault.name, "visibility.depth_test_ignored");
+  for (const KnownFault& fault : misread_states(scene)) EXPECT_EQ(fault.name, "visibility.depth_test_ignored");
 }
 
 }  // namespace

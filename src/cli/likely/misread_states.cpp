@@ -1,0 +1,238 @@
+#include "cli/likely/misread_states.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace plumbline::cli {
+
+namespace {
+
+// Gives a scene's state another value, and returns whether that changes the scene.
+using Change = std::function<bool(Scene&)>;
+
+template <class T>
+bool reset(T& state, const T& to) {
+  return std::exchange(state, to) != to;
+}
+template <class T>
+bool reset(std::optional<T>& state) {
+  return std::exchange(state, std::nullopt).has_value();
+}
+
+template <class ResetDraw>
+Change of_draws(ResetDraw reset_draw) {
+  return [reset_draw](Scene& scene) {
+    bool changed = false;
+    for (Draw& draw : scene.draws) changed |= reset_draw(draw);
+    return changed;
+  };
+}
+template <class ResetMaterial>
+Change of_materials(ResetMaterial reset_material) {
+  return of_draws([reset_material](Draw& d) {
+    const bool front = d.lit && reset_material(d.material);
+    return (d.lit && d.back_material && reset_material(*d.back_material)) || front;
+  });
+}
+
+template <class ResetSampler>
+Change of_samplers(ResetSampler reset_sampler) {
+  return [reset_sampler](Scene& scene) {
+    bool changed = false;
+    for (Texture& texture : scene.textures) changed |= reset_sampler(texture.sampler);
+    return changed;
+  };
+}
+
+MinFilter without_levels(MinFilter filter) {
+  using enum MinFilter;
+  if (!mipmaps(filter)) return filter;
+  return filter == nearest_mipmap_nearest || filter == nearest_mipmap_linear ? nearest : linear;
+}
+
+bool reset_equation(Draw& draw) {
+  if (!draw.merge.blend) return false;
+  const bool rgb = reset(draw.merge.blend->rgb.equation, BlendEquation::add);
+  return reset(draw.merge.blend->alpha.equation, BlendEquation::add) || rgb;
+}
+
+// Fragments are lit with `change`; of draws that are lit at their vertices, plumb list faults has the fault.
+Change of_lit_fragments(std::function<bool(Scene&)> change) {
+  return [change](Scene& scene) { return std::ranges::any_of(scene.draws, is_lit_per_fragment) && change(scene); };
+}
+template <class ResetLight>
+Change of_lights(ResetLight reset_light) {
+  return [reset_light](Scene& scene) {
+    bool changed = false;
+    for (Light& light : scene.lights) changed |= reset_light(light);
+    return changed;
+  };
+}
+
+bool reset_ambient(Scene& scene) {
+  bool changed = reset(scene.light_model.ambient, glm::vec3(0));
+  for (Light& light : scene.lights) changed |= reset(light.ambient, glm::vec3(0));
+  return changed;
+}
+
+constexpr auto kSwapsExponents = [](Draw& d) {
+  if (!d.fog || d.fog->mode == Fog::Mode::linear) return false;
+  d.fog->mode = d.fog->mode == Fog::Mode::exp ? Fog::Mode::exp2 : Fog::Mode::exp;
+  return true;
+};
+
+constexpr auto kBlendsByAlpha = [](Draw& d) {
+  if (!d.merge.blend) return false;
+  bool changed = false;
+  for (BlendTerm* term : {&d.merge.blend->rgb, &d.merge.blend->alpha}) {
+    changed |= reset(term->source, BlendFactor::source_alpha);
+    changed |= reset(term->destination, BlendFactor::one_minus_source_alpha);
+  }
+  return changed;
+};
+
+template <BlendFactor BlendTerm::*factor>
+bool becomes_one(Draw& d) {
+  if (!d.merge.blend) return false;
+  const bool rgb = reset(d.merge.blend->rgb.*factor, BlendFactor::one);
+  return reset(d.merge.blend->alpha.*factor, BlendFactor::one) || rgb;
+}
+
+// Shininess times `factor`, in [0, 128].
+auto shines_by(float factor) {
+  return of_materials([factor](Material& m) {
+    return m.specular != glm::vec4(0, 0, 0, m.specular.a) && reset(m.shininess, std::min(m.shininess * factor, 128.0f));
+  });
+}
+
+template <Wrap to>
+constexpr auto kWraps = [](Wrap from) {
+  return of_samplers([from](Sampler& s) {
+    bool changed = false;
+    for (Wrap* wrap : {&s.wrap_s, &s.wrap_t}) changed |= *wrap == from && reset(*wrap, to);
+    return changed;
+  });
+};
+
+bool swap_texels_red_and_blue(Scene& scene) {
+  bool changed = false;
+  for (Texture& texture : scene.textures) {
+    for (TextureLevel& level : texture.levels) {
+      for (glm::vec4& texel : level.texels) {
+        changed |= texel.r != texel.b;
+        std::swap(texel.r, texel.b);
+      }
+    }
+  }
+  return changed;
+}
+
+/// A state, and how a renderer misreads it: `change` returns whether the scene is another by it.
+struct MisreadState {
+  const char *stage, *name, *says;
+  Change change;
+};
+
+// In the order of the stages.
+std::vector<MisreadState> all_states() {
+  const glm::vec4 black(0, 0, 0, 1);
+  return {
+      {"matrices", "transforms_ignored", "draws are not moved, turned or scaled",
+       of_draws([](Draw& d) { return !std::exchange(d.transforms, {}).empty(); })},
+      {"light", "lighting_ignored", "draws are not lit", of_draws([](Draw& d) { return reset(d.lit, false); })},
+      {"light", "lights_ignored", "no light shines but the ambient one",
+       [](Scene& s) { return !std::exchange(s.lights, {}).empty(); }},
+      {"light", "ambient_ignored", "no ambient light is added", reset_ambient},
+      {"light", "ambient_without_material", "ambient light is not multiplied by the material's ambient colour",
+       of_materials([](Material& m) { return reset(m.ambient, glm::vec4(1, 1, 1, m.ambient.a)); })},
+      {"light", "specular_ignored", "there are no highlights",
+       of_materials([=](Material& m) { return reset(m.specular, black); })},
+      {"light", "shininess_doubled", "highlights have twice their shininess", shines_by(2)},
+      {"light", "shininess_halved", "highlights have half their shininess", shines_by(0.5f)},
+      {"light", "emission_ignored", "materials do not shine by themselves",
+       of_materials([=](Material& m) { return reset(m.emission, black); })},
+      {"light", "two_sides_ignored", "back faces are lit as front faces",
+       [](Scene& s) { return reset(s.light_model.sides, LightModel::Sides::one); }},
+      {"light", "phong_shading_ignored", "draws are lit at their vertices, not at their fragments",
+       of_draws([](Draw& d) { return d.shading == Shading::phong && reset(d.shading, Shading::gouraud); })},
+      {"clip", "flat_shading_ignored", "flat triangles have the colours of all corners",
+       of_draws([](Draw& d) { return d.shading == Shading::flat && reset(d.shading, Shading::gouraud); })},
+      {"clip", "depth_clamp_ignored", "near and far planes cut, though depths are to be clamped",
+       [](Scene& s) { return reset(s.depth_clamp, false); }},
+      {"window", "cull_ignored", "no face is culled", of_draws([](Draw& d) { return reset(d.cull, Cull::none); })},
+      {"window", "polygon_mode_ignored", "triangles are filled, whatever their mode", of_draws([](Draw& d) {
+         const bool front = reset(d.front_mode, PolygonMode::fill);
+         return reset(d.back_mode, PolygonMode::fill) || front;
+       })},
+      {"window", "line_width_ignored", "lines are one pixel wide",
+       of_draws([](Draw& d) { return reset(d.line_width, 1); })},
+      {"window", "point_size_ignored", "points are one pixel large",
+       of_draws([](Draw& d) { return reset(d.point_size, 1); })},
+      {"coverage", "scissor_ignored", "scissor boxes hide nothing", of_draws([](Draw& d) { return reset(d.scissor); })},
+      {"depth", "polygon_offset_ignored", "depths are not offset",
+       of_draws([](Draw& d) { return reset(d.polygon_offset, PolygonOffset()); })},
+      {"texture", "filters_ignored", "the nearest texel is taken, whatever the filters", of_samplers([](Sampler& s) {
+         const bool magnified = reset(s.mag, MagFilter::nearest);
+         return reset(s.min, MinFilter::nearest) || magnified;
+       })},
+      {"texture", "levels_ignored", "all texels are of the largest level",
+       of_samplers([](Sampler& s) { return reset(s.min, without_levels(s.min)); })},
+      {"texture", "repeat_for_clamp", "textures are repeated, though their edges are to be drawn out",
+       kWraps<Wrap::repeat>(Wrap::clamp_to_edge)},
+      {"texture", "repeat_for_mirror", "textures are repeated as they are, though every other is to be mirrored",
+       kWraps<Wrap::repeat>(Wrap::mirrored_repeat)},
+      {"texture", "blue_first", "textures' red and blue change places", swap_texels_red_and_blue},
+      {"shade", "attenuation_ignored", "lights do not fade with their distance",
+       of_lit_fragments(of_lights([](Light& l) { return reset(l.attenuation, glm::vec3(1, 0, 0)); }))},
+      {"shade", "spot_ignored", "spot lights shine to all sides",
+       of_lit_fragments(of_lights([](Light& l) { return reset(l.spot); }))},
+      {"shade", "local_viewer_ignored", "highlights are seen from infinitely far away, not from the eye",
+       of_lit_fragments([](Scene& s) { return reset(s.light_model.local_viewer, false); })},
+      {"shade", "texture_ignored", "textures are left out", of_draws([](Draw& d) { return reset(d.texture); })},
+      {"shade", "fog_ignored", "there is no fog", of_draws([](Draw& d) { return reset(d.fog); })},
+      {"shade", "fog_exponents_swapped", "fog by exp is by exp2, and the other way round", of_draws(kSwapsExponents)},
+      {"visibility", "depth_func_ignored", "all depth tests are less",
+       of_draws([](Draw& d) { return reset(d.depth_func, DepthFunc::less); })},
+      {"visibility", "depth_test_ignored", "every depth passes: what is drawn last is seen",
+       of_draws([](Draw& d) { return reset(d.depth_func, DepthFunc::always); })},
+      {"visibility", "depth_mask_ignored", "depths are written, though they are masked",
+       of_draws([](Draw& d) { return reset(d.merge.depth_mask, true); })},
+      {"visibility", "clear_depth_ignored", "the depth is cleared to 1",
+       [](Scene& s) { return reset(s.frame.clear_depth, 1.0); }},
+      {"visibility", "stencil_ignored", "stencil values hide nothing",
+       of_draws([](Draw& d) { return reset(d.stencil); })},
+      {"merge", "blend_ignored", "colours replace what is stored, and are not blended with it",
+       of_draws([](Draw& d) { return reset(d.merge.blend); })},
+      {"merge", "blend_factors_ignored", "blending is by the source's alpha, whatever the factors",
+       of_draws(kBlendsByAlpha)},
+      {"merge", "source_factor_of_one", "blending adds the source's colour as it is, whatever its factor",
+       of_draws(becomes_one<&BlendTerm::source>)},
+      {"merge", "destination_factor_of_one", "blending adds to the stored colour as it is, whatever its factor",
+       of_draws(becomes_one<&BlendTerm::destination>)},
+      {"merge", "blend_equation_ignored", "blended colours are added, whatever the equation", of_draws(reset_equation)},
+      {"merge", "logic_op_ignored", "logic ops are not applied",
+       of_draws([](Draw& d) { return reset(d.merge.logic_op); })},
+      {"merge", "clear_color_ignored", "the frame is cleared to black",
+       [=](Scene& s) { return reset(s.frame.clear_color, black); }},
+  };
+}
+
+}  // namespace
+
+std::vector<KnownFault> misread_states(const Scene& scene) {
+  std::vector<KnownFault> out;
+  for (const MisreadState& state : all_states()) {
+    Scene changed = scene;
+    if (!state.change(changed)) continue;
+    out.push_back({.stage = state.stage,
+                   .name = std::string(state.stage) + "." + state.name,
+                   .says = state.says,
+                   .of_scene = [change = state.change](Scene& s) { change(s); }});
+  }
+  return out;
+}
+
+}  // namespace plumbline::cli

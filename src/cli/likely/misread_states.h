@@ -1,0 +1,15 @@
+// Faults of renderers that ignore a state of the scene, or take it for another: each is drawn as the scene so changed.
+#pragma once
+
+#include <vector>
+
+#include "cli/likely/known_fault.h"
+#include "scene/scene.h"
+
+namespace plumbline::cli {
+
+/// One fault for each state of the table that the scene sets to another value: "STAGE.STATE_ignored" where the value
+/// drawn is the default.
+std::vector<KnownFault> misread_states(const Scene& scene);
+
+}  // namespace plumbline::cli
