@@ -24,6 +24,7 @@ struct LitPoint {
   std::size_t number;  ///< of the light
   float share = 1;     ///< of the light's intensity
   float shine = 1;     ///< of its specular colour
+  float wrapped = -1;  ///< share of its diffuse colour wherever the normal points; -1: N.L
 };
 
 /// The light equation as a sum of lights, each of whose points is changed.
@@ -39,7 +40,9 @@ Color<float> lit_light_by_light(const Illumination& illumination, const Reflecta
     Reflectance<float> of_one = reflectance;
     of_one.base = {0, 0, 0};
     const Reflectance<float>::Answer& answer = reflectance.answers[i];
-    of_one.answers[0] = {point.share * answer.ambient, point.share * answer.diffuse,
+    const bool by_cosine = point.wrapped < 0;
+    const Vec3<float> everywhere = by_cosine ? answer.ambient : answer.ambient + point.wrapped * answer.diffuse;
+    of_one.answers[0] = {point.share * everywhere, (by_cosine ? point.share : 0.0f) * answer.diffuse,
                          point.share * point.shine * answer.specular};
     const Color<float> added = pipeline::lit<float, float>(one, of_one, point.p_eye, point.n_eye);
     sum = {sum.r + added.r, sum.g + added.g, sum.b + added.b, sum.a};
@@ -154,6 +157,11 @@ constexpr auto kShineByCosine = [](LitPoint& at, const LightModel&) {
   at.shine = std::max(pipeline::dot(at.n_eye, pipeline::unit(towards(at))), 0.0f);
 };
 
+// Of a light that shines from behind, too.
+constexpr auto kHalfLambert = [](LitPoint& at, const LightModel&) {
+  at.wrapped = 0.5f * pipeline::dot(at.n_eye, pipeline::unit(towards(at))) + 0.5f;
+};
+
 constexpr auto kNoChange = [](LitPoint&, const LightModel&) {};
 
 template <auto change>
@@ -181,6 +189,7 @@ constexpr std::array kTerms = {
     term_at_vertices<kConeWithoutExponent>("light.no_spot_exponent",
                                            "spot lights are as bright at their cone's border"),
     term_at_vertices<kShineByCosine>("light.highlight_by_n_l", "highlights are multiplied by N.L"),
+    term_at_vertices<kHalfLambert>("light.half_lambert", "diffuse light is by (N.L + 1) / 2, which no side is without"),
     Fault{"light.not_clamped", "lit colours beyond 1 are interpolated, and clamped at the fragments", Stage::light,
           put<&Stages::light, at_vertices<kNoChange, false>>},
     term_per_fragment<kAbsoluteCosine>("shade.n_l_absolute",
@@ -203,6 +212,8 @@ constexpr std::array kTerms = {
     term_per_fragment<kConeWithoutExponent>("shade.no_spot_exponent",
                                             "light per fragment: spot lights are as bright at their cone's border"),
     term_per_fragment<kShineByCosine>("shade.highlight_by_n_l", "light per fragment: highlights are multiplied by N.L"),
+    term_per_fragment<kHalfLambert>("shade.half_lambert",
+                                    "light per fragment: diffuse light is by (N.L + 1) / 2, which no side is without"),
 };
 
 }  // namespace

@@ -42,7 +42,17 @@ FilteredTexel<float> negative_mirrored(const TextureSetup& t, const TexCoords<fl
   return pipeline::texture<float>(t, {repeated(t.sampler.wrap_s, at.s), repeated(t.sampler.wrap_t, at.t)}, g);
 }
 
-// The stage under a sampler that says something else.
+// Nearest texel (int) u for floor(u), where u is below 0.
+FilteredTexel<float> truncated_towards_zero(const TextureSetup& t, const TexCoords<float>& at,
+                                            const Gradients<float>& g) {
+  const FilteredTexel<float> right = pipeline::texture<float>(t, at, g);
+  const bool magnified = right.lod <= t.c;
+  if (magnified ? t.sampler.mag != MagFilter::nearest : t.sampler.min != MinFilter::nearest) return right;
+  const auto next = [](float v, double texels) { return v < 0 ? v + static_cast<float>(1 / texels) : v; };
+  return {pipeline::sample<float>(t, {next(at.s, t.width), next(at.t, t.height)}, right.lod), right.lod};
+}
+
+// Stage texture under a sampler that `change` altered.
 template <auto change>
 FilteredTexel<float> texture_under(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   TextureSetup wrong = t;
@@ -111,7 +121,7 @@ FilteredTexel<float> weights_exchanged(const TextureSetup& t, const TexCoords<fl
 
 using TexturedAttributes = pipeline::SurfaceAttributes<float>;
 
-// The stage under a draw that says something else.
+// Stage shade under a draw that `change` altered.
 template <auto change>
 pipeline::Shaded shaded_under(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
   Draw wrong = *surface.draw;
@@ -173,6 +183,8 @@ constexpr std::array kTextures = {
           put<&Stages::texture, texture_under<kClampForRepeat>>},
     Fault{"texture.negative_mirrored", "repeated textures are mirrored where coordinates are negative", Stage::texture,
           put<&Stages::texture, negative_mirrored>, "dolphin-emu/dolphin#9921"},
+    Fault{"texture.truncated_towards_zero", "of negative coordinates the next texel is taken: (int) u for floor(u)",
+          Stage::texture, put<&Stages::texture, truncated_towards_zero>},
     Fault{"texture.edge_for_border", "a texture's edge is drawn out where its border should be", Stage::texture,
           put<&Stages::texture, texture_under<kEdgeForBorder>>, "xemu-project/xemu#1005"},
     Fault{"texture.bias_left_out", "the texture's level-of-detail bias is not added", Stage::texture,

@@ -70,6 +70,15 @@ constexpr auto kFovTimesNear = [](const Scene& scene, Matrices<float>& m) {
   m.projection[1][1] *= factor;
 };
 
+constexpr auto kAspectInverted = [](const Scene& scene, Matrices<float>& m) {
+  const float aspect = static_cast<float>(scene.frame.width) / static_cast<float>(scene.frame.height);
+  if (std::holds_alternative<Perspective>(scene.projection)) m.projection[0][0] = aspect * m.projection[1][1];
+};
+
+constexpr auto kAspectOfOne = [](const Scene& scene, Matrices<float>& m) {
+  if (std::holds_alternative<Perspective>(scene.projection)) m.projection[0][0] = m.projection[1][1];
+};
+
 constexpr auto kAspectOf4To3 = [](const Scene& scene, Matrices<float>& m) {
   if (std::holds_alternative<Perspective>(scene.projection)) m.projection[0][0] = 0.75f * m.projection[1][1];
 };
@@ -77,6 +86,12 @@ constexpr auto kAspectOf4To3 = [](const Scene& scene, Matrices<float>& m) {
 // The two change places in (n + f) / (n - f) and 2 n f / (n - f), and in an orthographic projection's terms: a sign.
 constexpr auto kNearFarSwapped = [](const Scene&, Matrices<float>& m) {
   for (int column = 0; column < 4; ++column) m.projection[column].z = -m.projection[column].z;
+};
+
+// z_clip of another library, from 0 to w: half the sum of z and w.
+constexpr auto kClipFromZero = [](const Scene&, Matrices<float>& m) {
+  for (int column = 0; column < 4; ++column)
+    m.projection[column].z = 0.5f * (m.projection[column].z + m.projection[column].w);
 };
 
 constexpr auto kDepthRangeNotMapped = [](const Scene&, Matrices<float>& m) {
@@ -93,6 +108,11 @@ constexpr auto kViewportOneShort = [](const Scene&, Matrices<float>& m) {
 constexpr auto kViewportByWidthLessOne = [](const Scene&, Matrices<float>& m) {
   m.win_scale.x -= 0.5f, m.win_translate.x -= 0.5f;
   m.win_scale.y -= 0.5f, m.win_translate.y -= 0.5f;
+};
+
+constexpr auto kViewportLessOneFromTop = [](const Scene&, Matrices<float>& m) {
+  m.win_scale.x -= 0.5f, m.win_translate.x -= 0.5f;
+  m.win_scale.y -= 0.5f, m.win_translate.y += 0.5f;
 };
 
 // The stage under a matrix for normals of its own.
@@ -147,10 +167,15 @@ constexpr std::array kVertices = {
                                                   "the vertical field of view is taken for the horizontal one"),
     of_matrices<matrices_changed<kFovTimesNear>>(
         "matrices.fov_times_near", "half the field of view is multiplied by near within the tangent, not beside it"),
+    of_matrices<matrices_changed<kAspectInverted>>("matrices.aspect_inverted",
+                                                   "the aspect ratio is taken for height over width"),
+    of_matrices<matrices_changed<kAspectOfOne>>("matrices.aspect_of_one", "every picture is taken to be square"),
     of_matrices<matrices_changed<kAspectOf4To3>>("matrices.aspect_of_4_to_3", "every picture is taken to be 4 to 3",
                                                  "avaraline/Avara#69"),
     of_matrices<matrices_changed<kNearFarSwapped>>("matrices.near_far_swapped",
                                                    "the near plane is taken for the far one"),
+    of_matrices<matrices_changed<kClipFromZero>>(
+        "matrices.clip_z_from_zero", "the projection is that of a library whose view volume is 0 <= z <= w"),
     of_matrices<matrices_changed<kDepthRangeNotMapped>>("matrices.depth_range_not_mapped",
                                                         "every draw's depths fill [0,1], whatever its depth range"),
     of_matrices<matrices_changed<kViewportOneShort>>(
@@ -159,6 +184,9 @@ constexpr std::array kVertices = {
     of_matrices<matrices_changed<kViewportByWidthLessOne>>(
         "matrices.viewport_by_width_less_one",
         "the viewport is a pixel less wide and high: its left lower corner is right"),
+    of_matrices<matrices_changed<kViewportLessOneFromTop>>(
+        "matrices.viewport_less_one_from_top",
+        "the viewport is a pixel less wide and high: its left upper corner is right"),
     of_matrices<matrices_changed<kNormalsByInverse>>("matrices.normals_by_inverse",
                                                      "the normals' matrix is the inverse, not transposed"),
     of_matrices<matrices_of_other<kTransformsReversed>>(
