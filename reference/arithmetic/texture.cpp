@@ -95,6 +95,7 @@ glm::dvec4 texel(const Texture& texture, const TextureLevel& level, int i, int j
 glm::dvec4 in_level(const Texture& texture, int number, bool linear, glm::dvec2 st) {
   const TextureLevel& level = texture.levels[static_cast<std::size_t>(number)];
   const Sampler& s = texture.sampler;
+  if (!std::isfinite(st.s) || !std::isfinite(st.t)) return glm::dvec4(std::numeric_limits<double>::quiet_NaN());
   const double u = level.width * wrapped(s.wrap_s, st.s, level.width);
   const double v = level.height * wrapped(s.wrap_t, st.t, level.height);
   if (!linear) {

@@ -208,6 +208,18 @@ void fold_colors(const Scene& scene, const Projected& projected, std::span<const
   legal.color_hi(x, y) = certain ? high(color.written()) : glm::vec4(kInfinity);
 }
 
+/// Per pixel, whether it is one of `pixels`; empty where they are none.
+std::vector<bool> asked_pixels(const FrameFormat& frame, std::span<const glm::ivec2> pixels) {
+  if (pixels.empty()) return {};
+  const auto width = static_cast<std::size_t>(frame.width);
+  std::vector<bool> asked(width * static_cast<std::size_t>(frame.height));
+  for (const glm::ivec2 p : pixels) {
+    const bool is_inside = p.x >= 0 && p.y >= 0 && p.x < frame.width && p.y < frame.height;
+    if (is_inside) asked[static_cast<std::size_t>(p.y) * width + static_cast<std::size_t>(p.x)] = true;
+  }
+  return asked;
+}
+
 }  // namespace
 
 Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates, const Request& request) {
@@ -227,13 +239,14 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   std::vector<PixelHit> hits;
   std::vector<Hit> to_fold;
   std::vector<LegalAnswer> answers;
+  const std::vector<bool> asked = asked_pixels(frame, request.pixels);
   double by_depth = 0, centres = 0;
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       hits.clear();
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
-      const bool records = std::ranges::find(request.pixels, glm::ivec2(x, y)) != request.pixels.end();
+      const bool records = !asked.empty() && asked[pixel];
       const Colors colors = records || !legal.color_lo.empty() ? Colors::now : Colors::asked;
       for (const std::uint32_t primitive : by_pixel.at(pixel)) {
         if (const auto hit = pixel_hit(scene, projected, primitive, x, y, colors)) hits.push_back(*hit);
@@ -260,9 +273,9 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
 
 std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget) {
   const std::size_t pixels = static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height);
-  // Per pixel: `certain`, `possible`, the index of answers, the index of candidates, and two answers (most pixels have
-  // one).
-  const std::size_t fixed = plane_bytes(scene) + pixels * (4 * sizeof(std::uint32_t) + 2 * sizeof(LegalAnswer));
+  // Per pixel: `certain`, `possible`, `shared`, the index of answers, the index of candidates with its copy while it is
+  // made, and two answers (most pixels have one).
+  const std::size_t fixed = plane_bytes(scene) + pixels * (5 * sizeof(std::uint32_t) + 1 + 2 * sizeof(LegalAnswer));
   require_budget(scene, fixed, memory_budget);
   return (memory_budget - fixed) / (sizeof(Candidate) + sizeof(std::uint32_t));
 }
@@ -270,15 +283,7 @@ std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget) {
 Legal legal_by_boxes(const Scene& of_dialect, const Request& request) {
   const SceneByConventions by_conventions(of_dialect, request.conventions);
   const Scene& scene = *by_conventions;
-  const FrameFormat& frame = scene.frame;
-  std::vector<bool> wanted;
-  for (const glm::ivec2 p : request.pixels) {
-    wanted.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-    if (p.x >= 0 && p.y >= 0 && p.x < frame.width && p.y < frame.height)
-      wanted[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(p.x)] =
-          true;
-  }
-  Candidates candidates(candidate_budget(scene, request.memory_budget), std::move(wanted));
+  Candidates candidates(candidate_budget(scene, request.memory_budget), asked_pixels(scene.frame, request.pixels));
   const Projected projected = project(scene, request.conventions);
   add_by_boxes(projected, candidates);
   add_by_edges(projected, candidates);

@@ -6,6 +6,8 @@
 namespace plumbline {
 
 Outcomes outcomes(CompareFunc func, double lo, double hi, double reference) {
+  const bool is_fixed = func == CompareFunc::never || func == CompareFunc::always;
+  if (!is_fixed && (std::isnan(lo) || std::isnan(hi))) return {true, true};
   const bool less = lo < reference, equal = lo <= reference && reference <= hi, greater = hi > reference;
   switch (func) {
     case CompareFunc::never: return {false, true};

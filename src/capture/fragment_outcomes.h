@@ -7,7 +7,7 @@
 
 namespace plumbline {
 
-/// Outcomes that a comparison of a number within [lo, hi] with another may have.
+/// Outcomes that a comparison of a number within [lo, hi] with another may have; lo or hi of NaN: any number.
 struct Outcomes {
   bool may_pass, may_fail;
 };

@@ -53,7 +53,7 @@ void learn_rows_by_any(Prober& prober) {
 }
 
 // Leaves the conventions open that the probe has not found.
-void leave_open(Prober& prober, const Probe& probe, const char* why) {
+void leave_open(Prober& prober, const Probe& probe, const std::string& why) {
   const std::vector<LearnedRow>& rows = prober.learned.rows;
   for (const std::string_view name : probe.names) {
     if (std::ranges::find(rows, name, &LearnedRow::name) == rows.end()) prober.open(words_of(name), why);
@@ -78,8 +78,9 @@ Learned learn(Renderer& renderer) {
       leave_open(prober, probe, e.what());
     } catch (const RendererFailed& e) {
       if (++failures == kMostFailures) throw;
-      leave_open(prober, probe, e.what());
-      prober.unexplained(e.what());
+      const std::string said = e.what(), line = said.substr(0, said.find('\n'));  // without the end of its stderr
+      leave_open(prober, probe, line);
+      prober.unexplained(line);
     }
   }
   for (const char* words : {"polygons' cuts", "lines and points", "places of samples"}) {

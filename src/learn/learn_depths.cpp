@@ -341,6 +341,9 @@ void learn_depth_arithmetic(Prober& prober) {
 void learn_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format == C::Depth::z32f) return prober.open(kOffsetWords, "depths are floats, whose unit is their step");
+  for (const char* name : {"depth_range", "depth_format"}) {
+    if (prober.is_open(name)) return prober.open(kOffsetWords, fmt::format("{} is open", name));
+  }
   std::string evidence;
   for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
     const bool codes_of_16 =

@@ -119,6 +119,7 @@ void learn_weights(Prober& prober) {
   }
   const std::string evidence =
       fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * (kTexturedSize - 1), most);
+  if (!std::isfinite(most)) return prober.fits_none(words, evidence);
   // Weights of few bits are off towards either neighbour: no texel is above the exact one where mixes are truncated.
   if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");
   const bool are_float = most <= (c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01);

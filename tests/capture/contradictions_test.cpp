@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/temporary_path.h"
+#include "capture/files/capture_folder.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 
@@ -66,6 +68,12 @@ TEST_F(Contradictions, ColoursAsCodes) {
              "codes? code / (2^n - 1) is expected");
 }
 
+TEST_F(Contradictions, BrightColoursOfAFloatFrameAreNoCodes) {
+  Capture c = of("texture/first_scene.json");
+  for (glm::vec4& color : c.planes.color.values()) color = {2, 2, 2, 1};
+  for (const std::string& line : contradictions(c)) EXPECT_EQ(line.find("codes?"), std::string::npos) << line;
+}
+
 TEST_F(Contradictions, RowsUpsideDown) {
   const Capture sky = of("texture/first_scene.json");  // above the floor nothing is drawn
   const auto flipped = [&](auto plane) {
@@ -81,6 +89,7 @@ TEST_F(Contradictions, RowsUpsideDown) {
 
 TEST_F(Contradictions, APictureWithoutTriangles) {
   Capture c;
+  c.renderer = "mine", c.version = "1";
   c.without_records = {"window"};
   c.planes.color = Plane<glm::vec4>(4, 2, glm::vec4(0, 0, 0, 1));
   c.planes.id = Plane<std::int32_t>(4, 2, kBackground);
@@ -91,6 +100,23 @@ TEST_F(Contradictions, APictureWithoutTriangles) {
   c.planes.id(3, 1) = 0;
   EXPECT_EQ(contradictions_of(c, Stage::window).size(), 2u);
   EXPECT_TRUE(contradictions_of(c, Stage::visibility).empty());
+}
+
+// Such a fragment has no primitive; judges look its triangle up.
+TEST_F(Contradictions, AFragmentBesideNoTriangleIsRefusedWhereItIsRead) {
+  const TemporaryPath folder(temporary_files(), "contradictions-", TemporaryPath::Kind::folder);
+  Capture c;
+  c.width = c.height = 2;
+  c.renderer = "mine", c.version = "1";
+  c.without_records = {"window"};
+  c.records.covered = {{0, 1, 1}};
+  write_capture(c, folder.path());
+  try {
+    read_capture(folder.path());
+    FAIL() << "read";
+  } catch (const CaptureError& e) {
+    EXPECT_HAS(std::string(e.what()), "coverage.triangle: element 0: expected a triangle below 0, found 0");
+  }
 }
 
 TEST_F(Contradictions, TransposedMatrices) {

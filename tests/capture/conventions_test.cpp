@@ -41,6 +41,9 @@ TEST_F(ConventionsFile, WhatIsWrittenIsReadBack) {
   c.open = {"sample", "blending"}, c.unexplained = {"one scene \"drawn\" twice differs"};
   EXPECT_EQ(declared(conventions_text(c)), c);
   EXPECT_EQ(declared(conventions_text({})), C());
+  c.unexplained = {"a program's\nwords, \x01 and \xff"};
+  EXPECT_EQ(declared(conventions_text(c)).unexplained,
+            std::vector<std::string>{"a program's words,   and \xEF\xBF\xBD"});
   EXPECT_EQ(declared(R"({"format": "plumbline conventions", "version": 1})"), C()) << "what is left out is OpenGL's";
 }
 

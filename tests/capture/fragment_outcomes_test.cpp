@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace plumbline {
 namespace {
 
@@ -17,6 +19,16 @@ TEST(AlphaOutcomes, AreOpenWhereTheIntervalHoldsAStepOfTheFormat) {
   EXPECT_TRUE(open(ColorFormat::rgba32f, 99.6 / 255, 100.4 / 255));
   EXPECT_FALSE(alpha_outcomes(test, ColorFormat::rgba8, 100.4 / 255, 100.4 / 255).may_pass);
   EXPECT_TRUE(alpha_outcomes(test, ColorFormat::rgba32f, 100.4 / 255, 100.4 / 255).may_pass);
+}
+
+TEST(AlphaOutcomes, AreOpenOfAnUnknownNumber) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const CompareFunc func : {CompareFunc::less, CompareFunc::equal, CompareFunc::not_equal}) {
+    const Outcomes o = alpha_outcomes({func, 0.5f}, ColorFormat::rgba32f, nan, nan);
+    EXPECT_TRUE(o.may_pass && o.may_fail);
+  }
+  EXPECT_FALSE(alpha_outcomes({CompareFunc::never, 0.5f}, ColorFormat::rgba32f, nan, nan).may_pass);
+  EXPECT_FALSE(alpha_outcomes({CompareFunc::always, 0.5f}, ColorFormat::rgba32f, nan, nan).may_fail);
 }
 
 TEST(PassesAllOver, TheEndsOfFormatsWithCodes) {

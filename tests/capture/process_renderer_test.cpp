@@ -251,6 +251,13 @@ TEST_F(Process, RefusesWhatItCannotHandOver) {
   EXPECT_THROW(shell("true")->capture(scene_, {}), Unsupported);
 }
 
+TEST_F(Process, MayLeaveNoMoreThanItsBudgetInAnyFolder) {
+  Request small;
+  small.memory_budget = 100000;
+  const std::string fill = "mkdir -p \"$2\"/a/b && head -c 200000 /dev/zero > \"$2\"/a/b/x";
+  EXPECT_THROW(shell(fill)->capture(scene_, small), OverBudget);
+}
+
 TEST_F(Process, LeavesNoFolderBehind) {
   const fs::path temporary = root_ / "tmp";
   fs::create_directories(temporary);

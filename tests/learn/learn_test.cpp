@@ -247,6 +247,16 @@ TEST(Learn, ARefusedProbeLeavesItsConventionsOpen) {
   }
 }
 
+// A file of conventions has lines: what a program says on stderr is not among them.
+TEST(Learn, AProbeThatFailsIsAFindingOfOneLine) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) {
+    if (scene.name == "probe/clipping") throw RendererFailed("mine: exited with status 3\nthe end of its stderr:\nno");
+  };
+  const std::vector<std::string> expected = {"probe/clipping: mine: exited with status 3"};
+  EXPECT_EQ(learn(renderer).conventions.unexplained, expected);
+}
+
 // A tolerance of edge functions moves edges of one side as a sample off the centre would, and those of the other back.
 // One depth a triangle, of a renderer that cuts nothing, looks clamped at the near plane alone.
 TEST(Learn, OneDepthATriangleIsNotClamped) {

@@ -27,9 +27,11 @@ int bits_at(const JsonNode& node) {
   return static_cast<int>(value.integer);
 }
 
-// A key and its texts; without any, nothing.
-std::string text_array(std::string_view key, const std::vector<std::string>& texts) {
-  return texts.empty() ? "" : fmt::format(",\n \"{}\": {}", key, nlohmann::json(texts).dump());
+// A key and its texts; without any, nothing. Control characters, and bytes that are no UTF-8, are replaced.
+std::string text_array(std::string_view key, std::vector<std::string> texts) {
+  for (std::string& text : texts) std::ranges::replace_if(text, is_control, ' ');
+  const std::string json = nlohmann::json(texts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return texts.empty() ? "" : fmt::format(",\n \"{}\": {}", key, json);
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ std::string last_lines(const fs::path& file, int lines) {
 
 std::uintmax_t bytes_below(const fs::path& folder) {
   std::uintmax_t sum = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file()) sum += entry.file_size();
   }
   return sum;
@@ -230,15 +230,15 @@ class ProcessRenderer : public Renderer {
 
   Capture read(const Scene& scene, const Request& request, const fs::path& folder) const {
     if (!fs::is_directory(fs::symlink_status(folder))) fail("left no capture: its folder is gone");
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      if (!entry.is_symlink()) continue;
-      fail(fmt::format("left a link, {}, where a file was expected", entry.path().filename().string()));
-    }
-    if (const std::uintmax_t left = bytes_below(folder); left > request.memory_budget) {
-      throw OverBudget(fmt::format("{}: left {} bytes in its folder, where a capture takes at most {}", spec_.name,
-                                   left, request.memory_budget));
-    }
     try {
+      for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (!entry.is_symlink()) continue;
+        fail(fmt::format("left a link, {}, where a file was expected", entry.path().filename().string()));
+      }
+      if (const std::uintmax_t left = bytes_below(folder); left > request.memory_budget) {
+        throw OverBudget(fmt::format("{}: left {} bytes in its folder, where a capture takes at most {}", spec_.name,
+                                     left, request.memory_budget));
+      }
       Capture capture = read_capture(folder);
       const fs::directory_iterator files(folder);
       if (std::distance(begin(files), end(files)) == 1)
@@ -257,6 +257,8 @@ class ProcessRenderer : public Renderer {
     } catch (const CaptureError& error) {
       fail(fmt::format("left no capture that can be read: {}",
                        replaced(error.what(), folder.string(), "{output}")));  // the folder is gone when this is read
+    } catch (const fs::filesystem_error& error) {                              // it is changing its folder still, say
+      fail(fmt::format("left a folder that cannot be read: {}", error.code().message()));
     } catch (const std::invalid_argument& error) {
       fail(fmt::format("left no capture of the scene: {}", error.what()));
     }

@@ -23,6 +23,12 @@ inline double to_float(double value) {
   return static_cast<double>(rounded);
 }
 
+/// Whole part of a record's number as an int, which another renderer's may not fit: at most 2^30, NaN as -2^30.
+inline int whole_in_range(double value) {
+  constexpr double kMost = 0x1p30;
+  return static_cast<int>(std::floor(std::fmin(std::fmax(value, -kMost), kMost)));
+}
+
 // Compares records one by one by visit(meter, i); a mismatch where the two sides' counts differ.
 template <class Visit>
 Measurement each(const char* what, const std::string& unit, std::size_t candidate, std::size_t reference, Visit visit) {

@@ -76,7 +76,7 @@ Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const
 
 Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown) {
   Capture out;
-  for (std::size_t i = 0; shown.stages[i].shows; ++i) {
+  for (std::size_t i = 0; i < shown.stages.size() && shown.stages[i].shows; ++i) {
     try {
       copy_stage(static_cast<Stage>(i), candidate.run_stage(scene, static_cast<Stage>(i), out), out);
     } catch (const std::exception& e) {

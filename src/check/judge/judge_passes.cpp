@@ -163,13 +163,13 @@ Measurement compare_samples(const Scene& scene, const Capture& candidate, std::s
                     fmt::format("{} samples, the scene has {} passes", candidate.samples.size(), colors.size()),
                     candidate.planes.color.size());
   }
-  Measurement out;
+  std::optional<Measurement> out;
   for (std::size_t pass = 0; pass < colors.size(); ++pass) {
     if (colors[pass].empty()) continue;  // its rows say why
     Measurement m = compare_color_bits(candidate.samples[pass], colors[pass], scene.frame.color);
-    out = pass == 0 ? std::move(m) : worse(std::move(out), std::move(m));
+    out = out ? worse(std::move(*out), std::move(m)) : std::move(m);
   }
-  return out;
+  return out.value_or(Measurement());
 }
 
 SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,

@@ -9,6 +9,7 @@
 
 #include "capture/fragment_outcomes.h"
 #include "check/bounds/open_pixels.h"
+#include "check/bounds/units.h"
 #include "check/compare/window_area.h"
 #include "reference/arithmetic/frame_color.h"
 #include "scene/draw_index.h"
@@ -67,7 +68,7 @@ Capture window_on_grid(Renderer& referee, const Scene& scene, const Capture& in,
     for (WindowVertex<double>& v : t.v) {
       for (int i = 0; i < 2; ++i) {
         v.p_win[i] = (v.p_win[i] - bias) / times + 0.5;
-        v.snapped[i] = static_cast<int>(snapped(conventions, (v.p_win[i] - 0.5) * kSubpixel));
+        v.snapped[i] = whole_in_range(snapped(conventions, (v.p_win[i] - 0.5) * kSubpixel));
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "capture/capture_columns.h"
+#include "capture/fragment_outcomes.h"
 #include "check/bounds/units.h"
 
 namespace plumbline::check {
@@ -72,7 +73,7 @@ void clear_stages_after(Stage stage, Capture& capture) {
 
 void round_to_formats(const Scene& scene, Stage stage, Capture& capture) {
   if (stage == Stage::depth) {
-    for (double& z : capture.records.depth) z = to_code(z, depth_scale(scene.frame.depth));
+    for (double& z : capture.records.depth) z = depth_in_format(scene.frame.depth, z);
   } else if (stage >= Stage::merge) {
     for (glm::vec4& color : capture.planes.color.values()) {
       for (int c = 0; c < 4; ++c) color[c] = static_cast<float>(to_code(color[c], color_scale(scene.frame.color)));

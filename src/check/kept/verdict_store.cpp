@@ -16,16 +16,22 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kHashDigits = 32;
 
-}  // namespace
-
 // A folder for each of the first two digits: a folder of thousands is slow to look through.
-fs::path VerdictStore::file_of(const Hash& key) const {
+fs::path path_of(const fs::path& folder, const Hash& key) {
   const std::string name = to_string(key);
-  return folder_ / name.substr(0, 2) / (name.substr(2) + ".verdict");
+  return folder / name.substr(0, 2) / (name.substr(2) + ".verdict");
 }
 
+// Whether a store of that folder wrote the file: no other is removed.
+bool is_kept(const fs::path& folder, const fs::path& file) {
+  const std::optional<Hash> key = parse_hash(file.parent_path().filename().string() + file.stem().string());
+  return key && file == path_of(folder, *key);
+}
+
+}  // namespace
+
 std::optional<std::string> VerdictStore::find(const Hash& key) const {
-  const fs::path file = file_of(key);
+  const fs::path file = path_of(folder_, key);
   std::ifstream in(file, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(in), {}};
   if (bytes.size() < kHashDigits) return std::nullopt;
@@ -38,7 +44,7 @@ std::optional<std::string> VerdictStore::find(const Hash& key) const {
 }
 
 void VerdictStore::keep(const Hash& key, std::string_view bytes) const {
-  const fs::path file = file_of(key);
+  const fs::path file = path_of(folder_, key);
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   if (error) return;
@@ -52,7 +58,7 @@ void VerdictStore::keep(const Hash& key, std::string_view bytes) const {
 
 void VerdictStore::forget(const Hash& key) const {
   std::error_code ignored;
-  fs::remove(file_of(key), ignored);
+  fs::remove(path_of(folder_, key), ignored);
 }
 
 void VerdictStore::trim(std::uint64_t most_bytes) const {
@@ -66,7 +72,7 @@ void VerdictStore::trim(std::uint64_t most_bytes) const {
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
     std::error_code gone;  // by another run
-    if (!at->is_regular_file(gone)) continue;
+    if (!at->is_regular_file(gone) || !is_kept(folder_, at->path())) continue;
     const File file{at->last_write_time(gone), at->file_size(gone), at->path()};
     if (gone) continue;
     sum += file.size;

@@ -11,8 +11,8 @@
 
 namespace plumbline::check {
 
-/// A folder of files, each with the hash of its own bytes. A file appears whole or not at all; one that is cut off or
-/// damaged is none. Errors of writing are ignored: the bytes are then not kept.
+/// A folder of files, each with the hash of its own bytes. A file appears whole or not at all; a truncated or damaged
+/// file counts as absent. Errors of writing are ignored: the bytes are then not kept. Files of others are left alone.
 class VerdictStore {
  public:
   explicit VerdictStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -20,11 +20,10 @@ class VerdictStore {
   std::optional<std::string> find(const Hash& key) const;
   void keep(const Hash& key, std::string_view bytes) const;
   void forget(const Hash& key) const;
-  /// Removes least recently found files until the rest takes at most `most_bytes`.
+  /// Removes the least recently found of its files until the rest takes at most `most_bytes` [bytes].
   void trim(std::uint64_t most_bytes) const;
 
  private:
-  std::filesystem::path file_of(const Hash& key) const;
   std::filesystem::path folder_;
 };
 

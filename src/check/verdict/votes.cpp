@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,9 +50,15 @@ bool follows_from_winners(const Comparison& row, const std::vector<Comparison>& 
     by_exact |= other.judge.kind == Kind::per_stage && holds(other.outcome);
   }
   if (!by_exact || winners == nullptr) return false;
-  return std::ranges::all_of(at, [&](const glm::ivec2& pixel) {
-    return std::ranges::find(winners->measurement.differing_at, pixel) != winners->measurement.differing_at.end();
-  });
+  constexpr auto kRowByRow = [](const glm::ivec2& a, const glm::ivec2& b) {
+    return std::pair(a.y, a.x) < std::pair(b.y, b.x);
+  };
+  std::vector<glm::ivec2> disputed = winners->measurement.differing_at;
+  std::ranges::sort(disputed, kRowByRow);
+  const auto is_disputed = [&](const glm::ivec2& pixel) {
+    return std::ranges::binary_search(disputed, pixel, kRowByRow);
+  };
+  return std::ranges::all_of(at, is_disputed);
 }
 
 }  // namespace

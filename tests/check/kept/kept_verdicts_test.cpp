@@ -293,6 +293,22 @@ TEST_F(KeptVerdicts, AreTrimmedFromTheLongestUnused) {
   EXPECT_FALSE(store.find(keys[1]));
 }
 
+TEST_F(KeptVerdicts, AreTrimmedAmongFilesOfOthers) {
+  const VerdictStore store(folder);
+  const Hash key{1, 1};
+  store.keep(key, std::string(1000, 'x'));
+  const fs::path kept = files()[0];
+  const fs::path others[] = {folder / "notes.txt", folder / "photos" / "one.verdict", kept.parent_path() / "aa.verdict",
+                             folder / kept.filename()};
+  fs::create_directories(folder / "photos");
+  for (const fs::path& other : others) std::ofstream(other) << std::string(5000, 'o');
+  store.trim(2000);
+  EXPECT_TRUE(store.find(key)) << "files of others take no room";
+  store.trim(0);
+  EXPECT_FALSE(store.find(key));
+  for (const fs::path& other : others) EXPECT_TRUE(fs::exists(other)) << other;
+}
+
 TEST_F(KeptVerdicts, NeedNoFolder) {
   const fs::path file = root / "file";
   std::ofstream(file) << "no folder";
