@@ -15,8 +15,8 @@ struct PieceAltitudes {
 /// renderer in double; infinite where a piece may have no area.
 double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, const PieceAltitudes& altitudes);
 
-/// shares_error() at the ray d, of the whole triangle: a bound of its pieces would leave open every colour of a cut
-/// triangle, and what is wrong with cuts. 0 for a triangle that reaches behind the eye.
+/// shares_error() at the ray d, of the whole triangle. The pieces of a cut triangle are not bounded: their bound would
+/// allow any colour, and so hide wrong cuts. 0 for a triangle that reaches behind the eye.
 double shares_error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d);
 
 }  // namespace plumbline::math

@@ -39,12 +39,12 @@ struct Corner {
   std::uint32_t point;  ///< equal for vertices of one draw whose positions are bit-equal
 };
 
-/// One of the scene's triangles, with its planes and bounds where some legal renderer may draw it.
-/// A polygon offset is in [middle - half, middle + half] [window z].
+/// Interval of a polygon offset: [middle - half, middle + half] [window z].
 struct OffsetBounds {
   double middle = 0, half = 0;
 };
 
+/// One of the scene's triangles, with its planes and bounds where some legal renderer may draw it.
 struct Triangle {
   std::array<std::uint32_t, 3> corner;  ///< indices into Projected::corners
   std::uint32_t draw = 0;

@@ -192,7 +192,7 @@ double ambiguous_by_edges(const Scene& scene, const Projected& projected, const 
 
 namespace {
 
-constexpr double kStandsFor = 1;  // r, in pixels
+constexpr double kBandReach = 1;  // r, in pixels
 
 void operator+=(DepthShare& a, const DepthShare& b) {
   a.area = std::min(1.0, a.area + b.area);
@@ -220,8 +220,8 @@ DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b)
   const bool clamped = a.win.half == 0 && b.win.half == 0 && (a.win.z == 0 || a.win.z == 1);
   if (clamped && apart == 0) return {};
   const bool within = apart <= width;
-  if (slope * kStandsFor <= width) return {within ? 1.0 : 0.0, within};
-  return {apart <= kStandsFor * slope ? width / slope / kStandsFor : 0, within};
+  if (slope * kBandReach <= width) return {within ? 1.0 : 0.0, within};
+  return {apart <= kBandReach * slope ? width / slope / kBandReach : 0, within};
 }
 
 /// This pixel's share of the band along the line where the near or far plane, at depth `plane`, cuts the surface. Only
@@ -229,9 +229,9 @@ DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b)
 DepthShare cut(const PixelDepth& surface, double plane) {
   const double apart = std::abs(surface.z - plane), slope = glm::length(surface.slope);
   const bool within = apart <= surface.half;
-  if (slope * kStandsFor <= surface.half) return {within ? 1.0 : 0.0, within};
+  if (slope * kBandReach <= surface.half) return {within ? 1.0 : 0.0, within};
   const bool visible = surface.z >= 0 && surface.z <= 1;
-  return {visible && apart <= kStandsFor * slope ? 2 * surface.half / slope / kStandsFor : 0, within};
+  return {visible && apart <= kBandReach * slope ? 2 * surface.half / slope / kBandReach : 0, within};
 }
 
 /// Sum of meeting() over all pairs for which counts(a, b) holds. Surfaces are sorted by depth, and pairs too far apart
@@ -239,7 +239,7 @@ DepthShare cut(const PixelDepth& surface, double plane) {
 template <class Counts>
 DepthShare meetings(const FrameFormat& frame, std::vector<Surface> surfaces, Counts counts) {
   std::ranges::sort(surfaces, {}, [](const Surface& s) { return s.win.z; });
-  const auto reach = [](const Surface& s) { return s.win.half + kStandsFor * glm::length(s.win.slope); };
+  const auto reach = [](const Surface& s) { return s.win.half + kBandReach * glm::length(s.win.slope); };
   double most = 0;
   for (const Surface& s : surfaces) most = std::max(most, reach(s));
   DepthShare share;

@@ -17,8 +17,8 @@ struct Candidate {
   std::uint32_t primitive;
 };
 
-/// A list of up to `most` candidates. Further ones are dropped and reported by require_complete(), as add() must not
-/// throw through a foreign library's callback.
+/// A list of up to `most` candidates. add() drops further ones, because it must not throw through Embree's callback;
+/// require_complete() reports them.
 class Candidates {
  public:
   /// `wanted`: per pixel, whether its candidates are kept; empty: all are.

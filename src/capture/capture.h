@@ -25,8 +25,8 @@ struct Planes {
 };
 
 /// A weight per primitive, of three 12-bit parts (so that sums of up to 4096 of each part stay below 2^24 and are exact
-/// in an RGBA32F target). Part 0 is the number's low 12 bits, part 1 the next 12, part 2 a mix of all its bits, so that
-/// pairs of numbers with the same sum are told apart.
+/// in an RGBA32F target). Part 0 is the number's low 12 bits, part 1 the next 12, part 2 12 bits of a hash, which
+/// distinguishes pairs of numbers with equal sums.
 constexpr std::uint32_t id_weight_part(std::uint32_t primitive, int part) {
   if (part == 0) return primitive & 0xfffu;
   if (part == 1) return (primitive >> 12) & 0xfffu;

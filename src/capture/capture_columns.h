@@ -23,7 +23,7 @@ namespace plumbline {
 static_assert(std::endian::native == std::endian::little,
               "capture folders are little-endian, and written as memory is");
 
-/// What one array's element is: the scalar's name, and its extents (none for a scalar; a matrix: columns, rows).
+/// Element type of an array: the name of its scalars, and extents (scalar: none; vector: size; matrix: columns, rows).
 template <class T>
 struct Element;
 template <>
@@ -144,7 +144,7 @@ class Columns {
   std::tuple<C...> all_;
 };
 
-/// Stage that hands a group or plane on, its name, and what one of its records belongs to.
+/// Source of a group or plane: its stage, its name in a capture folder, and the owner of each of its records.
 struct Handed {
   constexpr Handed(Stage of, std::string_view named) : Handed(of, named, plumbline::per(of)) {}
   constexpr Handed(Stage of, std::string_view named, Per owner, std::optional<Varying> v = {})
@@ -155,7 +155,7 @@ struct Handed {
   std::optional<Varying> varying;  ///< whose column the group is
 };
 
-/// Group that holds one record of each owner (others lie beside it), and how many it holds.
+/// Group with one record per owner, and its size. Every other group of these owners has the same size, or none.
 struct Owners {
   std::string_view group;
   std::size_t count;

@@ -31,7 +31,7 @@ std::optional<Order> order_by(const std::vector<Record>& records, auto key) {
   return order;
 }
 
-/// A column that does not lie beside the records stays as it is.
+/// Permutes a column by `order`. A column of another length stays unchanged.
 template <class T>
 void reorder(std::vector<T>& column, const Order& order) {
   if (column.size() != order.size()) return;
@@ -122,7 +122,7 @@ bool faces_front(const WindowTriangle<double>& t, const Conventions& conventions
   return e1.x * e2.y > e1.y * e2.x;
 }
 
-// Numbers with which the judges can compute: differences of positions are ints, and their products 64 bits.
+// Range check: |snapped| < 2^30, so that differences fit 32 bits and their products 64; width 1 to 64 [pixels].
 void require_in_range(const WindowTriangle<double>& t, std::size_t record) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 30;  // [1/256 pixel]
   constexpr std::uint32_t kWidest = 64;

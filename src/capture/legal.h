@@ -45,7 +45,7 @@ struct Hit {
 
 /// One winner that the rules allow, and the stencil value that stands beside it.
 struct LegalAnswer {
-  std::int32_t primitive = -1;  ///< or kBackground
+  std::int32_t primitive = kBackground;  ///< the winner; kBackground: the cleared frame
   float color_bound = 0;
   double z_lo = 0, z_hi = 0;  ///< the window z that the frame then holds
   glm::vec4 color{0};

@@ -45,7 +45,7 @@ struct Ability {
   bool runs = false;          ///< run_stage() serves the stage
   std::string reason = {};    ///< why not, where neither
   bool planes_alone = false;  ///< the capture holds planes of the stage, and no records
-  bool given = false;         ///< not shown: the capture's records are those that the renderer was given (--from)
+  bool given = false;         ///< --from: the records are the export's, not the renderer's, and are not judged
   bool contradicted = false;  ///< other arrays contradict the stage's arrays (`reason`): outcome `failed`
 };
 

@@ -19,7 +19,7 @@ void require(bool fits, std::string_view group) {
 
 bool tests_alpha(const Draw& draw) { return draw.alpha_test.has_value(); }
 
-// Whether the stage, run alone, reads the group: groups of its inputs (stages.h), but for a few.
+// Whether run_stage(stage) reads the group: groups of inputs_of(stage), less the exceptions below.
 bool reads(const Scene& scene, Stage stage, Handed group) {
   if (!inputs_of(stage).has(group.stage) || !has_stage(scene, group.stage)) return false;
   if (group.varying) {

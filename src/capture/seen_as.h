@@ -1,4 +1,4 @@
-// A varying in the place of the colour, so that code for the colour serves varyings, too.
+// View of a varying as the colour: comparators of colours then serve varyings.
 #pragma once
 
 #include "capture/stages.h"

@@ -18,7 +18,7 @@ using pipeline::Lights;
 using Vertices = std::span<const Vertex<float>>;
 using LitVertices = std::vector<pipeline::Attributes>;
 
-// The stage under a scene that says something else, and that scene's lights.
+// Stage light of the scene that `change` altered, and of its lights.
 template <auto change>
 void lit_otherwise(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights, Vertices vertices,
                    LitVertices& out) {
@@ -116,7 +116,7 @@ void positions_by_distance(const Scene& scene, const Draw& draw, const Mesh& mes
   }
 }
 
-// Light per fragment under a scene that says something else. (What fragment_light() reads of a mesh is put back.)
+// Light per fragment of the scene that `change` altered. (What fragment_light() reads of a mesh is put back.)
 template <auto change>
 pipeline::Shaded shaded_in_other_light(const pipeline::Surface& surface, bool front,
                                        const pipeline::SurfaceAttributes<float>& a) {

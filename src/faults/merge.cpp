@@ -43,7 +43,7 @@ bool alpha_at_the_reference_kept(const AlphaTest& test, float alpha, float scale
 
 bool no_alpha_test(const AlphaTest&, float, float) { return true; }
 
-// The stencil test under a face that says something else.
+// Stencil test of the face that `change` altered.
 template <auto change>
 bool stencil_under(const StencilFace& face, bool alive, bool passes_depth, std::uint8_t* at) {
   StencilFace wrong = face;

@@ -130,7 +130,7 @@ Polygon first_provokes(const DrawInput& input, const glm::uvec3& corners, std::s
   return polygon;
 }
 
-// The stage under other matrices, or a draw that says something else.
+// Stage under the matrices, or the draw, that `change` altered.
 template <auto change>
 void window_under(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   DrawInput wrong = input;

@@ -127,7 +127,7 @@ pipeline::SampleOffsets mirrored_samples(glm::ivec2 sample) { return {{sample.x,
 
 pipeline::SampleOffsets depth_of_centre(glm::ivec2 sample) { return {sample, {0, 0}, {0, 0}}; }
 
-// The triangle's plane, under a state that says something else.
+// The triangle's plane, of the state that `change` altered.
 template <auto change>
 pipeline::DepthSetup depth_under(const Triangle& triangle, const pipeline::DepthState& state) {
   pipeline::DepthState wrong = state;

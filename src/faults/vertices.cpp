@@ -10,7 +10,7 @@ namespace plumbline::faults {
 
 namespace {
 
-// The stage under a draw that says something else.
+// Stage matrices of the draw that `change` altered.
 template <auto change>
 Matrices<float> matrices_of_other(const Scene& scene, const Draw& draw) {
   Draw wrong = draw;

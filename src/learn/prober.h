@@ -54,7 +54,7 @@ class Prober {
   Learned learned;
   /// Depth function of all draws of the probes. Where draws lie over each other, the later one is the nearer.
   DepthFunc depth_func = DepthFunc::always;
-  /// False: colours are codes away from linear ones, by no known encoding. What they are mixed of then shows no more.
+  /// False: colours are 4 codes or more from linear ones, in no known encoding; probes of mixed colours are skipped.
   bool are_linear = true;
   /// The first probe's picture has one colour: no other probe is drawn.
   bool sees_nothing = false;

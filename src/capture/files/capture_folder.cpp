@@ -62,7 +62,7 @@ class Reader {
   Reader(const fs::path& folder, Capture& capture)
       : folder_(folder), manifest_(folder / "manifest.json"), capture_(capture) {
     const JsonNode root = manifest_.root();
-    require(root["format"], kFormat);  // first: an export is told by it
+    require(root["format"], kFormat);  // first: its message says what an export's folder is
     root.only({"format", "version", "renderer", "renderer_version", "width", "height", "byte_order", "arrays"});
     root["version"].integer(kVersion, kVersion);
     require(root["byte_order"], "little");

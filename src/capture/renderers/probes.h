@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-/// The most primitives of a scene that is probed: each is a picture.
+/// Largest number of primitives of a probed scene; each primitive costs one picture.
 inline constexpr std::size_t kMostProbes = 4096;
 
 /// The scene with one primitive alone: white on black, in a frame cleared to depth 1, nothing blended, so that its

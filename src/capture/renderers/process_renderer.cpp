@@ -44,7 +44,7 @@ std::vector<std::string> merged_environment(const std::map<std::string, std::str
   return all;
 }
 
-/// How a process ended: its exit status, or in words what else came. Of another status than 0, in words as well.
+/// End of a process. `status`: exit status, 0 where it did not exit by itself. `words`: any end but status 0.
 struct Ending {
   std::string words;
   int status = 0;

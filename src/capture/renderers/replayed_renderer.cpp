@@ -18,7 +18,7 @@ namespace plumbline {
 
 namespace {
 
-// Whether the capture holds the group's arrays, be they of no record: such a stage is judged.
+// Whether the capture holds the group's arrays, with or without records. The stage is judged in both cases.
 bool holds(const Capture& c, std::string_view group, const auto& records) {
   return !records.empty() || c.without_records.contains(std::string(group));
 }

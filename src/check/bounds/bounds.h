@@ -64,9 +64,9 @@ bool is_near(const WindowTriangle<double>& triangle, int x, int y);
 /// A primitive's window triangles.
 std::span<const WindowTriangle<double>> triangles_of(const Records<double>& records, std::int32_t primitive);
 
-/// What a polygon offset adds to the bound of a depth, times u, for a renderer that finds the slope in float and adds
-/// the offset to the corners' depths: the slope's own error (bounds_from_origin's of a gradient) and four roundings of
-/// it times |factor|, and two of the offset.
+/// Error that a polygon offset adds to a depth [u of window z], for a renderer that computes the slope in float and
+/// offsets the corners: |factor| times (error of the slope, as bounds_from_origin's of a gradient, + 4 roundings of
+/// it), and 2 roundings of the offset.
 class OffsetErrors {
  public:
   explicit OffsetErrors(const Scene& scene, const Conventions& conventions = {});

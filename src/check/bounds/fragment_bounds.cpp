@@ -16,7 +16,7 @@ namespace plumbline::check {
 
 namespace {
 
-// What Mesa makes otherwise than OpenGL 2.1 (3.10; 3.9, 3.10).
+// Mesa's departures from OpenGL 2.1: fog of triangles behind the eye (3.10); clamp of the colour sum (3.9, 3.10).
 constexpr std::string_view kBehindEye =
                                "Mesa interpolates |z_eye| of vertices behind the eye, fog is of a fragment's own",
                            kClampedLate = "Mesa clamps the sum of colours after fog, the specification before";
@@ -55,8 +55,7 @@ std::vector<Vec4<double>> fog_apart(const Scene& scene, const Records<double>& r
   return out;
 }
 
-// Per vertex, what the two sides may be apart in a part of its light that the reference does not hand out; empty where
-// there is no such part.
+// Per vertex, bound of the difference in a lit varying that the reference does not hand out; empty: no draw carries it.
 std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, Varying v) {
   if (std::ranges::none_of(scene.draws, [&](const Draw& draw) { return carries(scene, draw, v); })) return {};
   std::vector<Vec4<double>> out(r.vertices.size(), Vec4<double>(0));

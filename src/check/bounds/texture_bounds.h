@@ -11,10 +11,10 @@
 
 namespace plumbline::check {
 
-/// The texture's largest component, at least 1: what float arithmetic on its texels is proportional to.
+/// Largest |component| of level 0, at least 1; other levels are means of it. Float errors of texels scale with it.
 double largest_texel(const Texture& texture);
 
-/// How far from the range of legal texels another renderer's may be.
+/// Range of legal texels, and the slack by which another renderer's texel may leave it.
 struct TexelBound {
   TexelRange range;
   Vec4<double> slack{0};  ///< from errors of the texture coordinates and of filtering; infinite: any texel is legal

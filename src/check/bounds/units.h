@@ -61,16 +61,16 @@ void add(Meter& meter, const glm::vec<n, double>& a, const glm::vec<n, double>& 
   }
 }
 
-inline const LegalAnswer* find(std::span<const LegalAnswer> answers, std::int32_t primitive) {
+inline const LegalAnswer* answer_of_primitive(std::span<const LegalAnswer> answers, std::int32_t primitive) {
   const auto it = std::find_if(answers.begin(), answers.end(),
                                [&](const LegalAnswer& answer) { return answer.primitive == primitive; });
   return it == answers.end() ? nullptr : &*it;
 }
 
 // The legal answer of the planes' winner and its stencil value; null: there is none.
-inline const LegalAnswer* find(const Legal& legal, const Planes& planes, int x, int y) {
+inline const LegalAnswer* answer_of_winner(const Legal& legal, const Planes& planes, int x, int y) {
   const std::int32_t id = planes.id(x, y);
-  if (planes.stencil.empty()) return find(legal.at(x, y), id);
+  if (planes.stencil.empty()) return answer_of_primitive(legal.at(x, y), id);
   for (const LegalAnswer& answer : legal.at(x, y)) {
     if (answer.primitive == id && answer.stencil == planes.stencil(x, y)) return &answer;
   }
@@ -79,9 +79,9 @@ inline const LegalAnswer* find(const Legal& legal, const Planes& planes, int x, 
 
 // The answers that a pixel's depth and colour are held to: its winner's, or all where no winners are shown. None: its
 // winner is not legal.
-inline std::span<const LegalAnswer> held_to(const Legal& legal, const Planes& planes, int x, int y) {
+inline std::span<const LegalAnswer> answers_of_winner(const Legal& legal, const Planes& planes, int x, int y) {
   if (planes.id.empty()) return legal.at(x, y);
-  const LegalAnswer* own = find(legal, planes, x, y);
+  const LegalAnswer* own = answer_of_winner(legal, planes, x, y);
   return own == nullptr ? std::span<const LegalAnswer>() : std::span(own, 1);
 }
 
@@ -112,7 +112,7 @@ inline double outside(double value, double low, double high) {
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
 }
 
-/// Value that means nothing, such as a winner's colour where no fragment wins: any finite number holds.
+/// Adds a value without a reference, such as a winner's colour where no fragment wins: differs only if not finite.
 inline void finite_value(Meter& meter, double value, const Place& place) {
   meter.value(std::isfinite(value) ? 0 : kInfinite, 0, place, value, 0);
 }

@@ -20,7 +20,7 @@ Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();
     const std::int32_t id = candidate.id(x, y);
-    meter.value(find(legal, candidate, x, y) != nullptr ? 0 : 1, 0, {x, y, -1, "primitive"}, id,
+    meter.value(answer_of_winner(legal, candidate, x, y) != nullptr ? 0 : 1, 0, {x, y, -1, "primitive"}, id,
                 answers.empty() ? kBackground : answers.front().primitive);
   });
 }
@@ -43,7 +43,7 @@ bool is_cleared(std::span<const LegalAnswer> answers) {
 void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate, const Legal& legal, int x, int y) {
   std::string why;
   if (candidate.depth.empty() || legal.first.empty() || !same_size(candidate.depth, legal.certain, why)) return;
-  const auto answers = held_to(legal, candidate, x, y);
+  const auto answers = answers_of_winner(legal, candidate, x, y);
   if (!is_cleared(answers)) return;
   const LegalAnswer& cleared = answers.front();
   const double z = candidate.depth(x, y), factor = tolerance(Profile::oracle, Stage::depth).factor;
@@ -52,8 +52,8 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
 }
 
 // `half_code`: added to the oracle's bound for rounding to the frame's format. `at_pixel(meter, x, y)`: more values;
-// true: the pixel's colour is not compared. `holds(answer, x, y)`: whether the pixel's other planes are the answer's;
-// where one's are, no other answer counts.
+// true: the pixel's colour is not compared. `holds(answer, x, y)`: whether the pixel's other planes fit the answer; if
+// any answer fits, only fitting ones count.
 template <class AtPixel, class Holds>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
                                 double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel,
@@ -82,7 +82,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
     const auto farthest = [&](const LegalAnswer& a) {
       return std::max({apart(a, 0), apart(a, 1), apart(a, 2), apart(a, 3)});
     };
-    const auto answers = held_to(legal, candidate, x, y);
+    const auto answers = answers_of_winner(legal, candidate, x, y);
     if (answers.empty()) {  // visibility judges the winner; here any finite colour holds
       for (int i = 0; i < 4; ++i) {
         meter.value(std::isfinite(c[i]) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "color"}, c[i], 0);
@@ -109,7 +109,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
   if (!fits_winners(candidate, legal, why)) return mismatch("step", why, candidate.depth.size());
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
     if (legal.at(x, y).size() > 1) meter.ambiguous();
-    const auto answers = held_to(legal, candidate, x, y);
+    const auto answers = answers_of_winner(legal, candidate, x, y);
     if (!candidate.color.empty() && is_cleared(answers)) return;
     const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
     const auto apart = [&](const LegalAnswer& a) { return outside(z, a.z_lo, a.z_hi) / step; };
@@ -129,7 +129,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
   // No fragment has a colour where only the background is legal; merge judges the clear colour.
   const auto has_no_winner = [&](Meter& meter, int x, int y) {
-    if (candidate.color.empty() || !is_cleared(held_to(legal, candidate, x, y))) return false;
+    if (candidate.color.empty() || !is_cleared(answers_of_winner(legal, candidate, x, y))) return false;
     for (int i = 0; i < 4; ++i) finite_value(meter, candidate.shaded(x, y)[i], {x, y, kBackground, "color"});
     return true;
   };

@@ -112,8 +112,8 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
     const bool held = !candidate.stencil.empty();
     const int stencil_a = held ? candidate.stencil(x, y) : 0, stencil_b = held ? reference.stencil(x, y) : 0;
     if (a == b && stencil_a == stencil_b) return;
-    if (!legal.empty() && find(legal, candidate, x, y) != nullptr) {
-      if (find(legal, reference, x, y) != nullptr) return meter.ambiguous();
+    if (!legal.empty() && answer_of_winner(legal, candidate, x, y) != nullptr) {
+      if (answer_of_winner(legal, reference, x, y) != nullptr) return meter.ambiguous();
       meter.suspect("its winner is none of the legal ones, ours is");
     }
     if (a != b) return meter.value(1, 0, {x, y, -1, "primitive"}, a, b);

@@ -1,5 +1,5 @@
-// Polygons as polygons: the vertices that a cut makes may slide along nearly parallel edges by more than any bound on
-// coordinates would allow, so each is held to what defines it: its triangle, and the planes that it was cut by.
+// Comparator of clip polygons. A cut vertex may slide along a nearly parallel edge farther than any bound on
+// coordinates, so it is held to the plane of its triangle and to the clip planes that made it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -131,7 +131,7 @@ template <class At>
 void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const Corners& corners, double factor,
                      double copies, bool loosely, const At& at) {
   const double unit = u * corners.scale;
-  std::vector<ClipVertex<double>> mine, theirs;  // without those that rounding decides about, where the numbers differ
+  std::vector<ClipVertex<double>> mine, theirs;  // loosely: without vertices on planes whose cut rounding decides
   std::array<bool, 6> open{};
   if (loosely) {
     for (const auto& polygon : {all_mine, all_theirs}) open_planes(corners, polygon, factor * unit, open);

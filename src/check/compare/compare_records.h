@@ -1,5 +1,5 @@
-// Comparators of records, stages 0 to 9. `from` is the candidate's capture, which gives the magnitudes that tolerances
-// are proportional to; candidate and reference records are of the stage compared.
+// Comparators of records, stages 0 to 7, 9 and 10 (8: compare_texels.h). Tolerances are proportional to magnitudes of
+// the candidate's records.
 #pragma once
 
 #include <span>

@@ -27,13 +27,13 @@ std::uint64_t differing(const Evidence& e, const Capture& made) {
   }
   std::vector<Comparison> rows;
   const Legal none;
-  const Case c{.scene = e.scene,
-               .candidate = e.candidate,
-               .legal = none,
-               .referee = nullptr,
-               .rows = rows,
-               .foreign = e.foreign,
-               .conventions = e.conventions};
+  const SceneJudgement c{.scene = e.scene,
+                         .candidate = e.candidate,
+                         .legal = none,
+                         .referee = nullptr,
+                         .rows = rows,
+                         .foreign = e.foreign,
+                         .conventions = e.conventions};
   compare_stage(c, made, e.stage, "");
   return rows.empty() ? 0 : rows.back().measurement.differing;
 }
@@ -79,7 +79,7 @@ std::vector<Cause> likely_causes(const Evidence& e) {
       if (left > all / 50) continue;
       tried.push_back(
           {left, {cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)}});
-    } catch (const std::exception&) {  // exact refuses what this cause makes: it is another
+    } catch (const std::exception&) {  // the referee refuses the altered records: not this cause
     }
   }
   std::uint64_t least = all;

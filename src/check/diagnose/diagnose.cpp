@@ -79,7 +79,7 @@ struct Finder {
   Conventions conventions;
   bool foreign;
   // The judgement of the candidate's capture, to which run_exact_stage() adds.
-  Case case_of(const Capture& mine, std::vector<Comparison>& rows) const {
+  SceneJudgement case_of(const Capture& mine, std::vector<Comparison>& rows) const {
     static const Legal none;
     return {.scene = scene,
             .candidate = mine,
@@ -116,7 +116,7 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
     if (!wrong) {
       const JudgeId name(referee_info.name, Kind::repaired);
       std::vector<Comparison> rows;
-      const Case c = find.case_of(in, rows);
+      const SceneJudgement c = find.case_of(in, rows);
       try {
         copy_stage(stage, candidate.run_stage(scene, stage, in), in);
         run_exact_stage(c, referee, stage, name);
@@ -171,7 +171,7 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   try {
     const Capture mine = candidate.capture(find.scene, {.records = StageSet::all(), .pixels = pixels});
     const JudgeId name(find.referee.info().name, Kind::at_worst);
-    const Case c = find.case_of(mine, pass.verdict.comparisons);
+    const SceneJudgement c = find.case_of(mine, pass.verdict.comparisons);
     if (lacks_fragment_records(mine)) return;
     for (const Stage stage : stages_of(find.scene, Stage::depth, Stage::shade)) {
       run_exact_stage(c, find.referee, stage, name);

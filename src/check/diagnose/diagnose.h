@@ -46,7 +46,7 @@ struct Diagnosis {
 // Kind::at_worst: where fragments are more than are looked at one by one, stages 6 to 9 of the fragments at the 5 x 5
 // pixels about each row's worst pixel, captured once more.
 
-/// The fragments that a diagnosis looks at one by one, an antialiased scene's passes together: some seconds' work.
+/// Default limit of recorded fragments in a diagnosis, shared by an antialiased scene's passes; some seconds of work.
 inline constexpr std::uint64_t kMostFragments = std::uint64_t{1} << 20;
 
 /// Judges the scene and diagnoses the verdict. A stage is wrong by itself where exact's row from the candidate's own

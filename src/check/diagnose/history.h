@@ -53,7 +53,7 @@ struct PixelHistory {
   std::string renderer;
   std::string absent;  ///< why there is none: "unsupported: ...", "missing: ...", "failed: ..."; else empty
   std::vector<PixelFragment> fragments;      ///< in draw order
-  std::map<std::string, std::string> lacks;  ///< what it does not tell of fragments ("fragments", "lod" ...), and why
+  std::map<std::string, std::string> lacks;  ///< reasons by field ("fragments", "lod", ...) that it lacks
   std::optional<glm::vec4> color;            ///< the frame's
   std::optional<double> depth;
   std::optional<std::uint8_t> stencil;

@@ -108,8 +108,8 @@ std::vector<KnownCause> all_causes();
 Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer,
                   const Conventions& conventions = {});
 
-/// Detects truncation of real numbers `expected` to codes. shows(): some codes are below the nearest one, and at most
-/// 1/50 as many are neither the next code down nor, within 1e-3 of a whole code, either neighbour.
+/// Detects truncation of real numbers `expected` to codes. shows(): n > 0 codes are below the nearest one, and
+/// truncation (to 1e-3 of a code) leaves at most n/50 unexplained.
 class Truncation {
  public:
   void add(double code, double expected) {

@@ -31,8 +31,8 @@ void attributes_of(Capture& in) {
 }
 
 // Whether the pixels that differ all lie on edges, and are missing, extra, or of both kinds.
-enum class Kind { missing, extra, both };
-template <Kind kind>
+enum class EdgeDifference { missing, extra, both };
+template <EdgeDifference kind>
 bool all_on_edges(const Evidence& e) {
   bool missing = false, extra = false;
   for (const CoverageDifference& d : coverage_differences(e)) {
@@ -45,7 +45,7 @@ bool all_on_edges(const Evidence& e) {
     missing = missing || !d.missing.empty();
     extra = extra || !d.extra.empty();
   }
-  return missing == (kind != Kind::extra) && extra == (kind != Kind::missing);
+  return missing == (kind != EdgeDifference::extra) && extra == (kind != EdgeDifference::missing);
 }
 
 // Whether each triangle lacks its last column, or row, or both, and nothing else.
@@ -144,13 +144,14 @@ using S = Stage;
 
 constexpr std::array kRasterCauses = {
     seen(S::coverage, "coverage.inclusive_edges",
-         "covered sets differ only on edges, all of them extra: the tie rule is inclusive", all_on_edges<Kind::extra>),
+         "covered sets differ only on edges, all of them extra: the tie rule is inclusive",
+         all_on_edges<EdgeDifference::extra>),
     seen(S::coverage, "coverage.strict_edges",
          "covered sets differ only on edges, all of them missing: the tie rule is exclusive",
-         all_on_edges<Kind::missing>),
+         all_on_edges<EdgeDifference::missing>),
     seen(S::coverage, "coverage.wrong_corner",
          "covered sets differ only on edges, missing and extra: the tie rule has another corner",
-         all_on_edges<Kind::both>),
+         all_on_edges<EdgeDifference::both>),
     seen(S::coverage, "coverage.box_one_short", "triangles lack their last column or row: the box is one short",
          box_one_short),
     seen(S::coverage, "coverage.small_dropped",

@@ -32,7 +32,7 @@ std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
 }
 
 // Whether the candidate declares that its depths are codes of the scene's format.
-bool declares_codes(const Case& c) {
+bool declares_codes(const SceneJudgement& c) {
   const Conventions& d = c.conventions;
   const bool is_open = std::ranges::find(d.open, "depth_format") != d.open.end();
   return c.foreign && !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open;
@@ -40,7 +40,7 @@ bool declares_codes(const Case& c) {
 
 }  // namespace
 
-void ask_oracle(const Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
+void ask_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, const JudgeId& name) {
   const Planes& planes = c.candidate.planes;
   const auto add = [&](auto compare, std::optional<Stage> as = {}) {
     const Tolerance& row = tolerance(Profile::oracle, as.value_or(stage));

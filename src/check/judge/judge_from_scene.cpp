@@ -18,7 +18,7 @@ StageSet oracle_stages(const Scene& scene) {
           Stage::merge};
 }
 
-void judge_by_oracle(const Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
+void judge_by_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, const JudgeId& name) {
   if (legal.empty()) {
     return c.skip(name, stage, Outcome::unsupported,
                   draws_lines_or_points(c.scene) ? "its legal answers are of triangles alone"
@@ -30,7 +30,7 @@ void judge_by_oracle(const Case& c, const Legal& legal, Stage stage, const Judge
 }
 
 // The referee's matrices and vertices of the scene. It judges the later stages from the candidate's own records.
-void judge_by_referee(const Case& c, const Records<double>& theirs, Stage stage, const JudgeId& name) {
+void judge_by_referee(const SceneJudgement& c, const Records<double>& theirs, Stage stage, const JudgeId& name) {
   const Records<double>& mine = c.candidate.records;
   const Inversion inversion = c.foreign ? Inversion::in_float : Inversion::in_double;
   if (stage == Stage::matrices) {
@@ -47,14 +47,15 @@ void judge_by_referee(const Case& c, const Records<double>& theirs, Stage stage,
   }
 }
 
-// The rows of the stage need legal texels, and nobody gave any.
-bool lacks_texels(const Case& c, Stage stage) {
+// Whether the stage's rows side by side need legal texels (fragment_bounds.h) that the capture lacks.
+bool lacks_texels(const SceneJudgement& c, Stage stage) {
   const bool of_texels = stage == Stage::texture || stage == Stage::shade || stage == Stage::merge;
   return of_texels && textured(c.scene) && c.candidate.legal.texels.empty();
 }
 
 // side_by_side(), or a row that says why nothing is compared.
-void judge_beside(const Case& c, const Capture& theirs, const RendererInfo& of, Stage stage, const JudgeId& name) {
+void judge_beside(const SceneJudgement& c, const Capture& theirs, const RendererInfo& of, Stage stage,
+                  const JudgeId& name) {
   const auto skip = [&](std::string_view why) { c.skip(name, stage, Outcome::unsupported, why); };
   if (draws_otherwise(c.scene, c.conventions, stage))
     return skip("it draws by other conventions: oracles and exact judge the stage");
@@ -73,7 +74,8 @@ void judge_beside(const Case& c, const Capture& theirs, const RendererInfo& of, 
 
 }  // namespace
 
-void judge_from_scene(const Case& c, const Capture& theirs, const RendererInfo& of, const RendererInfo& candidate) {
+void judge_from_scene(const SceneJudgement& c, const Capture& theirs, const RendererInfo& of,
+                      const RendererInfo& candidate) {
   const bool exact = is_referee(of);
   const JudgeId name(of.name, exact ? Kind::from_scene : of.legal ? Kind::legal : Kind::side_by_side);
   const StageSet by_oracle = of.legal ? oracle_stages(c.scene) : StageSet();

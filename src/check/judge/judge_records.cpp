@@ -16,13 +16,13 @@ namespace plumbline::check {
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
                                       const RendererInfo* shown, const MadeStages& made, const Legal& legal) {
   std::vector<Comparison> out;
-  const Case c{.scene = scene,
-               .candidate = candidate,
-               .legal = legal,
-               .referee = &referee,
-               .rows = out,
-               .foreign = shown != nullptr && shown->profile == Profile::foreign,
-               .conventions = shown != nullptr ? shown->conventions : Conventions()};
+  const SceneJudgement c{.scene = scene,
+                         .candidate = candidate,
+                         .legal = legal,
+                         .referee = &referee,
+                         .rows = out,
+                         .foreign = shown != nullptr && shown->profile == Profile::foreign,
+                         .conventions = shown != nullptr ? shown->conventions : Conventions()};
   const RendererInfo info = referee.info();
   const JudgeId name(info.name, Kind::per_stage);
   for (const Stage stage : stages_of(scene, Stage::vertex)) {

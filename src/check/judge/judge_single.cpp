@@ -145,14 +145,14 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     Renderer& reference = *references[i].renderer;
     try {
       const RendererInfo info = reference.info();
-      const Case c{.scene = *seen,
-                   .candidate = mine,
-                   .legal = *legal,
-                   .referee = referee,
-                   .rows = verdict.comparisons,
-                   .profile = info.profile,
-                   .foreign = foreign,
-                   .conventions = conventions};
+      const SceneJudgement c{.scene = *seen,
+                             .candidate = mine,
+                             .legal = *legal,
+                             .referee = referee,
+                             .rows = verdict.comparisons,
+                             .profile = info.profile,
+                             .foreign = foreign,
+                             .conventions = conventions};
       {
         const DrawnAsMade drawn_as_made(mine, made);
         judge_from_scene(c, answers.captures[i], info, shown);

@@ -19,28 +19,30 @@ namespace plumbline::check {
 namespace {
 
 // Roundings that a stranger's interpolation may have besides: in float from the window's origin, as llvmpipe's.
-double from_origin(const Case& c, Stage stage) { return c.foreign ? tolerance(Profile::opengl, stage).factor : 0; }
+double from_origin(const SceneJudgement& c, Stage stage) {
+  return c.foreign ? tolerance(Profile::opengl, stage).factor : 0;
+}
 
 // Roundings of a stranger's colours at corners, which may be products by 1/w undone, or fixed point of 16 bits.
-double corner_roundings(const Case& c) { return c.foreign ? 4 : 0; }
+double corner_roundings(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
 
-// Roundings of a stranger's clip positions that no plane cuts, u of the largest coordinate: of a view volume [0,w] in z,
-// z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again (largest seen: 1.2 u).
+// Roundings of a stranger's clip positions that no plane cuts, u of the largest coordinate: of a view volume [0,w] in
+// z, z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again (largest seen: 1.2 u).
 constexpr double kCopiedVertices = 4;
 
 // Roundings of a stranger's colours that no step of shading changes, u of the colour: c * 255 and c / 255 are one each,
 // as in GAMES101's framework, and so are a product by a white light and its sum (largest seen: 1 u).
-double copied_colors(const Case& c) { return c.foreign ? 4 : 0; }
+double copied_colors(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
 
 // A stranger may leave the sides to the raster.
-Measurement compare_clipped(const Case& c, const Records<double>& mine, const Records<double>& theirs, double factor,
-                            bool flat_applies) {
+Measurement compare_clipped(const SceneJudgement& c, const Records<double>& mine, const Records<double>& theirs,
+                            double factor, bool flat_applies) {
   if (!c.foreign) return compare_polygons(c.scene, mine, theirs, factor, flat_applies);
   return compare_polygons(c.scene, cut_at_sides(mine), theirs, factor, flat_applies, kCopiedVertices);
 }
 
 // Compares a varying in the stage's comparator, in place of the colour.
-Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records<double>& theirs) {
+Measurement compare_varying(const SceneJudgement& c, Stage stage, Varying v, const Records<double>& theirs) {
   const Scene& scene = c.scene;
   const Records<double>& mine = c.candidate.records;
   if (stage == Stage::light && !is_lit(v)) return compare_carried(v, mine, theirs);
@@ -56,7 +58,7 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
 }
 
 // Whether a foreign candidate declares a tie rule, and that or its grid is another than exact's.
-bool covers_otherwise(const Case& c) {
+bool covers_otherwise(const SceneJudgement& c) {
   const Conventions& d = c.conventions;
   const bool is_dialects = d.tie_rule == Conventions::TieRule::left_bottom && d.subpixel_bits == 8 &&
                            d.subpixel_rounding == Conventions::Rounding::nearest;
@@ -70,7 +72,7 @@ Measurement named(Measurement m, Varying v) {
 }
 
 // The worst of the measurements of the colour and of all varyings.
-Measurement with_varyings(const Case& c, Stage stage, Measurement color, const Records<double>& theirs) {
+Measurement with_varyings(const SceneJudgement& c, Stage stage, Measurement color, const Records<double>& theirs) {
   const bool to_fragments = stage > Stage::clip;
   for (const Varying v : carried(c.scene)) {
     if (to_fragments && is_back(v)) continue;
@@ -79,20 +81,20 @@ Measurement with_varyings(const Case& c, Stage stage, Measurement color, const R
   return color;
 }
 
-// Leaves those pixels open whose winner the oracle calls legal.
-void keep_legal(const Case& c, Plane<std::uint8_t>& open) {
+// Closes the open pixels whose winner the oracle does not call legal; all, where the oracle gave no answers.
+void close_illegal(const SceneJudgement& c, Plane<std::uint8_t>& open) {
   const Planes& mine = c.candidate.planes;
   const bool known = mine.id.size() == open.size() && c.legal.certain.size() == open.size() && !c.legal.empty();
   for (int y = 0; y < open.height(); ++y) {
     for (int x = 0; x < open.width(); ++x) {
-      if (open(x, y) != 0) open(x, y) = known && find(c.legal, mine, x, y) != nullptr ? 1 : 0;
+      if (open(x, y) != 0) open(x, y) = known && answer_of_winner(c.legal, mine, x, y) != nullptr ? 1 : 0;
     }
   }
 }
 
 // Winners and fragments drawn. Of a foreign candidate, pixels are ambiguous where its depth buffer may be of double
 // (open_by_double) and the oracle calls the winner legal.
-void compare_visible(const Case& c, const Capture& made, const JudgeId& name) {
+void compare_visible(const SceneJudgement& c, const Capture& made, const JudgeId& name) {
   const auto compare = [&](const Capture& theirs) {
     return worse(compare_winners(c.candidate.planes, theirs.planes, Legal{}),
                  compare_drawn(c.candidate.records, theirs.records));
@@ -100,7 +102,7 @@ void compare_visible(const Case& c, const Capture& made, const JudgeId& name) {
   Measurement m = compare(made);
   if (c.foreign && m.differing > 0) {
     Plane<std::uint8_t> open = open_by_double(c.scene.frame, c.candidate.records);
-    keep_legal(c, open);
+    close_illegal(c, open);
     Capture settled;
     settled.planes = made.planes;
     settled.records.drawn = made.records.drawn;
@@ -114,7 +116,7 @@ void compare_visible(const Case& c, const Capture& made, const JudgeId& name) {
 
 // Exact's planes; where the scene's clear depth is half way between two codes, with the one that a foreign candidate
 // took.
-Planes with_either_clear_depth(const Case& c, const Planes& made) {
+Planes with_either_clear_depth(const SceneJudgement& c, const Planes& made) {
   Planes out = made;
   const Planes& mine = c.candidate.planes;
   const double scale = depth_scale(c.scene.frame.depth), code = c.scene.frame.clear_depth * scale;
@@ -132,19 +134,19 @@ Planes with_either_clear_depth(const Case& c, const Planes& made) {
   return out;
 }
 
-Measurement depths_by_exact(const Case& c, const Capture& made, double factor) {
+Measurement depths_by_exact(const SceneJudgement& c, const Capture& made, double factor) {
   return compare_depth(c.scene, c.candidate.records, made.records, factor, c.conventions, from_origin(c, Stage::depth));
 }
 
-std::uint64_t depths_that_differ(const Case& c, const Capture& made) {
+std::uint64_t depths_that_differ(const SceneJudgement& c, const Capture& made) {
   return depths_by_exact(c, made, tolerance(Profile::exact, Stage::depth).factor).differing;
 }
 
 }  // namespace
 
-// attribute_corners binds attributes alone: where it is `snapped`, depths are made from the snapped corners and from the
-// corners as they are, and the better fit counts.
-void run_exact_stage(const Case& c, Renderer& referee, Stage stage, const JudgeId& name) {
+// attribute_corners binds attributes alone: where it is `snapped`, depths are made from the snapped corners and from
+// the corners as they are, and the better fit counts.
+void run_exact_stage(const SceneJudgement& c, Renderer& referee, Stage stage, const JudgeId& name) {
   if (stage >= Stage::depth && lacks_fragment_records(c.candidate))
     return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   Conventions by = c.foreign ? c.conventions : Conventions();
@@ -157,7 +159,7 @@ void run_exact_stage(const Case& c, Renderer& referee, Stage stage, const JudgeI
   compare_stage(c, made, stage, name);
 }
 
-void compare_stage(const Case& c, const Capture& made, Stage stage, const JudgeId& name) {
+void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, const JudgeId& name) {
   const Records<double>&mine = c.candidate.records, &theirs = made.records;
   const auto add = [&](auto compare, std::string_view part = "") {
     const Tolerance& row = tolerance(Profile::exact, stage, part);

@@ -20,7 +20,7 @@ namespace {
 // Whether a reference's coverage contradicts the window triangles that it hands out itself, and the candidate's follows
 // from them: exact arithmetic on the reference's own records is the third witness. (llvmpipe culls by the unsnapped
 // area as well, once anything in a batch is clipped.)
-bool contradicts_itself(const Case& c, const Capture& mine, const Capture& theirs) {
+bool contradicts_itself(const SceneJudgement& c, const Capture& mine, const Capture& theirs) {
   if (c.referee == nullptr || theirs.records.triangles.empty()) return false;
   Capture window;
   std::ranges::copy_if(theirs.records.triangles, std::back_inserter(window.records.triangles),
@@ -56,7 +56,7 @@ bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
   });
 }
 
-void compare_covers(const Case& c, const Capture& mine, const Capture& theirs, const JudgeId& name) {
+void compare_covers(const SceneJudgement& c, const Capture& mine, const Capture& theirs, const JudgeId& name) {
   if (draws(c.scene, Topology::lines)) {
     const Tolerance& row = tolerance(c.profile, Stage::coverage, "lines");
     c.add(name, Stage::coverage, compare_covered_lines(c.scene, mine, theirs, row.factor), &row);
@@ -68,7 +68,7 @@ void compare_covers(const Case& c, const Capture& mine, const Capture& theirs, c
   }
 }
 
-void compare_shown(const Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
+void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const Records<double>& mine = c.candidate.records;
   const auto factor_of = [&](Stage of, std::string_view part = "") { return tolerance(c.profile, of, part).factor; };
   const auto add = [&](Measurement m, std::string_view part = "", std::string note = "") {
@@ -164,7 +164,7 @@ void compare_shown(const Case& c, const Capture& theirs, Stage stage, const Judg
 // Compares the stage beside turned outlines (legal_window.h), which the two sides may draw as different faces: coverage
 // leaves them out, later planes are open where they lie. The rows of exact per stage judge them. False: nothing was
 // compared, because the stage is an earlier one, there are none, or what they cover is unknown.
-bool compare_beside_turned(const Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
+bool compare_beside_turned(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const bool lines_untold = draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate);
   if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
   const std::vector<std::uint32_t> turned = turned_outlines(c.scene, c.candidate.records, theirs.records);
@@ -182,7 +182,7 @@ bool compare_beside_turned(const Case& c, const Capture& theirs, Stage stage, co
 
 }  // namespace
 
-void side_by_side(const Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
+void side_by_side(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const std::size_t before = c.rows.size();
   if (!compare_beside_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
   if (c.rows.size() == before) return;

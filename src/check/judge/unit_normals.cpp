@@ -28,7 +28,7 @@ void stretch_unit_normals(std::vector<Attributes<double>>& normals, const std::v
   }
 }
 
-const Records<double>& vertex_records(const Case& c, Records<double>& made) {
+const Records<double>& vertex_records(const SceneJudgement& c, Records<double>& made) {
   if (!c.foreign) return c.candidate.records;
   return made = with_unit_normals(c.scene, c.candidate.records, OfDraws::all);
 }

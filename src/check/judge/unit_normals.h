@@ -1,7 +1,7 @@
-// Normals of a stranger, which may normalize them at vertices or later.
+// Normals of a foreign candidate (Profile::foreign), which may normalize at the vertices or at the fragments.
 #pragma once
 
-#include "check/judge/scene_case.h"
+#include "check/judge/scene_judgement.h"
 
 namespace plumbline::check {
 
@@ -12,7 +12,7 @@ enum class OfDraws { all, lit_at_vertices };
 Records<double> with_unit_normals(const Scene& scene, Records<double> records, OfDraws of);
 
 /// The candidate's records for comparisons of stage vertex: its own, or of a stranger, in `made`, with unit normals.
-const Records<double>& vertex_records(const Case& c, Records<double>& made);
+const Records<double>& vertex_records(const SceneJudgement& c, Records<double>& made);
 
 /// Gives interpolated normals of unit length, within 2^-16, the lengths of the expected ones: a stranger may normalize
 /// them as it interpolates. Others stay.

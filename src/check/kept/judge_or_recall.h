@@ -17,7 +17,7 @@ struct KeptVerdicts {
   VerdictStore store;
   /// Changes whenever the judges would judge otherwise: their program, libraries, processor, settings.
   std::string judges;
-  /// Whether to judge again, and compare with the kept verdict, which took `seconds`.
+  /// Whether a kept verdict that took `seconds` [s] is judged again and compared.
   std::function<bool(double seconds)> is_tried;
   /// Start of the run, before it read scenes. Scenes with a file written since are always judged, and not kept.
   std::filesystem::file_time_type began;

@@ -34,9 +34,9 @@ class TracedRenderer : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override;
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions) override;
 
-  /// Repeats these calls in order, up to the first that fails or whose answer or info() differs: then false. That one
-  /// answer is held for the next capture() of the same request, which hands it out or throws it without drawing again;
-  /// answers before it are drawn anew.
+  /// Repeats these calls in order, up to the first that fails or whose answer or info() differs: then false. That
+  /// answer is cached: the next capture() of the same request returns or throws it without drawing. Earlier answers are
+  /// not cached.
   bool answers_as_before(std::span<const TracedCall> calls);
   /// All calls of capture(), in order. None where one cannot be repeated: it asked for legal answers, for conventions
   /// other than the default, or for a scene that is neither the scene nor a pass of it; it failed; or run_stage() was

@@ -60,7 +60,7 @@ struct Measurement {
 /// |a - b|; 0 for equal numbers, equal infinities included; infinite where anything else is not finite.
 double difference(double a, double b);
 
-/// greater - less, modulo 2^64: integers do not all fit a double, nor a signed difference its type.
+/// greater - less as a double, subtracted modulo 2^64 first: no signed overflow, exact below 2^53.
 double integers_apart(std::uint64_t greater, std::uint64_t less);
 
 /// Gathers a measurement item by item.
@@ -77,9 +77,10 @@ class Meter {
   /// infinite differences, such as NaN, stay the candidate's. Empty: ends that.
   void suspect(std::string_view why) { why_ = why; }
   void ambiguous() { item_ambiguous_ = true; }
-  /// Ends an item that has got its values.
+  /// Ends an item: counts it, adds its largest difference to the histogram, and ends suspect().
   void item();
-  /// Counts whole items as different, such as missing records. `candidate`, `reference`: how many each side has.
+  /// Counts `items` whole items as infinitely different. Call between items. `candidate`, `reference`: each side's
+  /// count.
   void missing(std::uint64_t items, const Place& place, std::size_t candidate = 0, std::size_t reference = 0);
   Measurement done() { return std::move(m_); }
 
@@ -97,7 +98,7 @@ inline Measurement worse(Measurement a, Measurement b) {
   return a_tells ? std::move(a) : std::move(b);
 }
 
-/// A measurement that says that nothing fits: every item differs.
+/// Measurement of sides that cannot be compared item by item: all items (at least 1) differ infinitely.
 Measurement mismatch(std::string unit, std::string why, std::uint64_t items);
 
 /// Whether two planes have one size and are not both empty; if not, `why` says so.
@@ -113,7 +114,8 @@ bool same_size(const Plane<A>& a, const Plane<B>& b, std::string& why) {
   return false;
 }
 
-/// Compares pixel by pixel: `visit(meter, x, y)` gives the meter that pixel's values.
+/// Compares pixel by pixel: `visit(meter, x, y)` gives the meter the pixel's values. Sizes differ or both are empty:
+/// mismatch().
 template <class A, class B, class Visit>
 Measurement compare_planes(const Plane<A>& a, const Plane<B>& b, const std::string& unit, Visit visit) {
   std::string why;

@@ -31,7 +31,7 @@ inline constexpr std::size_t kOutcomes = 9;
 std::string_view name_of(Outcome outcome);
 /// equal, within, ambiguous_only.
 bool holds(Outcome outcome);
-/// The note of a stage whose fragments are more than are looked at one by one (judge_single.h, `most_fragments`).
+/// Note of a row without records of fragments: the scene has more than `most_fragments` (judge_single.h).
 inline constexpr std::string_view kOverBudget = "more fragments than are looked at one by one";
 
 /// different, failed, missing.
@@ -94,10 +94,11 @@ Comparison judged(std::string scene, JudgeId judge, Stage stage, Measurement mea
                   const Tolerance* tolerance = nullptr, std::string note = "");
 /// Turns the row into a dispute: its differing items become disputed, for the reason `why`.
 void to_dispute(Comparison& comparison, std::string why);
-/// What a row shows: of a dispute its largest difference, else the worst of all; null where nothing differs.
+/// Worst item of a row; of a dispute the disputed item with the largest difference. Null where nothing differs.
 const Worst* shown(const Comparison& comparison);
 /// Text of a row: the place of shown(); of a dispute both values, the count and the reason; the note.
 std::string remark(const Comparison& comparison);
+/// Row without a measurement. `outcome`: unsupported, missing or failed. `note`: the reason, for people.
 Comparison not_judged(std::string scene, JudgeId judge, Stage stage, Outcome outcome, std::string note);
 
 /// All comparisons of one scene, in stage order for each reference.
@@ -106,10 +107,10 @@ struct SceneVerdict {
   std::string path;
   std::vector<Comparison> comparisons;
   double seconds = 0;
-  bool empty_holds = false;  ///< a frame in which nothing is drawn is legal, and another one is, too
+  bool empty_holds = false;  ///< the cleared frame is legal, and so is another: who draws nothing cannot fail
   std::string failure{};     ///< lines: why it does not hold; empty: it does
   std::string repeat{};      ///< the command that repeats the failure
-  /// "STAGE (fault NAME)": known faults that draw what another renderer drew, and which its frame does not tell apart.
+  /// Known faults, as "STAGE (fault NAME)", that reproduce the candidate's frame; the frame does not distinguish them.
   std::vector<std::string> causes{};
 };
 

@@ -54,7 +54,7 @@ std::array<std::string_view, check::kOutcomes> outcome_names() {
   return out;
 }
 
-// What check::to_string() made of it, taken apart.
+// Parses the text of check::to_string(Place): pixel and record; the rest, "primitive N" included, is the field.
 check::Place place_at(const JsonNode& node, std::set<std::string>& words) {
   check::Place out;
   std::string rest = text(node["place"]);

@@ -51,12 +51,12 @@ struct DepthInDouble : testing::Test {
       candidate.planes.id.values()[i] = candidate.records.drawn[kPixels + i].drawn ? 1 : 0;
     }
     std::vector<Comparison> out;
-    const Case c{.scene = scene,
-                 .candidate = candidate,
-                 .legal = legal,
-                 .referee = exact.get(),
-                 .rows = out,
-                 .foreign = foreign};
+    const SceneJudgement c{.scene = scene,
+                           .candidate = candidate,
+                           .legal = legal,
+                           .referee = exact.get(),
+                           .rows = out,
+                           .foreign = foreign};
     run_exact_stage(c, *exact, Stage::visibility, "exact");
     return out.at(0);
   }
@@ -132,13 +132,13 @@ TEST(TurnedOver, ARendererThatSnapsNothingInterpolatesBetweenItsOwnCorners) {
     std::vector<Comparison> out;
     Conventions conventions;
     conventions.subpixel_bits = bits;
-    const Case c{.scene = scene,
-                 .candidate = candidate,
-                 .legal = none,
-                 .referee = exact.get(),
-                 .rows = out,
-                 .foreign = foreign,
-                 .conventions = conventions};
+    const SceneJudgement c{.scene = scene,
+                           .candidate = candidate,
+                           .legal = none,
+                           .referee = exact.get(),
+                           .rows = out,
+                           .foreign = foreign,
+                           .conventions = conventions};
     run_exact_stage(c, *exact, Stage::depth, "exact");
     return out.at(0).outcome;
   };
@@ -160,7 +160,7 @@ TEST(ClearDepth, HalfWayBetweenTwoCodesMayBeEitherOfAStrangers) {
     candidate.planes.depth.values()[5] = code / 16777215;
     const Legal none;
     std::vector<Comparison> out;
-    const Case c{
+    const SceneJudgement c{
         .scene = scene, .candidate = candidate, .legal = none, .referee = exact.get(), .rows = out, .foreign = foreign};
     run_exact_stage(c, *exact, Stage::merge, "exact");
     return out.at(0).outcome;
@@ -193,7 +193,7 @@ TEST(StrangersPositions, MayBeARoundingOffWhereNoPlaneCuts) {
   const Legal none;
   for (const bool foreign : {false, true}) {
     std::vector<Comparison> out;
-    const Case c{
+    const SceneJudgement c{
         .scene = scene, .candidate = candidate, .legal = none, .referee = exact.get(), .rows = out, .foreign = foreign};
     run_exact_stage(c, *exact, Stage::clip, "exact");
     EXPECT_EQ(out.at(0).outcome == Outcome::different, !foreign);

@@ -26,13 +26,13 @@ Comparison row(const Scene& scene, const Capture& candidate, Stage stage, const 
   const Legal none;
   const auto exact = exact::make_exact();
   std::vector<Comparison> out;
-  const Case c{.scene = scene,
-               .candidate = candidate,
-               .legal = none,
-               .referee = exact.get(),
-               .rows = out,
-               .foreign = true,
-               .conventions = conventions};
+  const SceneJudgement c{.scene = scene,
+                         .candidate = candidate,
+                         .legal = none,
+                         .referee = exact.get(),
+                         .rows = out,
+                         .foreign = true,
+                         .conventions = conventions};
   run_exact_stage(c, *exact, stage, "exact");
   return out.at(0);
 }

@@ -17,8 +17,8 @@
 
 namespace plumbline::check {
 
-/// A candidate's capture of a scene, what it is judged by, and the rows so far.
-struct Case {
+/// State of one scene's judgement: the candidate's capture, the judges' inputs, the rows appended so far.
+struct SceneJudgement {
   const Scene& scene;  ///< as the candidate's conventions have it
   const Capture& candidate;
   const Legal& legal;                ///< an oracle's, or empty
@@ -32,8 +32,8 @@ struct Case {
   std::uint64_t open = 0;
 
   /// The same, with `more` items left out.
-  Case with_open(std::uint64_t more) const {
-    Case out = *this;
+  SceneJudgement with_open(std::uint64_t more) const {
+    SceneJudgement out = *this;
     out.open += more;
     return out;
   }
