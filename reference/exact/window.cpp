@@ -102,7 +102,7 @@ std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const C
       continue;
     }
     const bool front = faces_front(corners);
-    const bool filled = state.front_mode == PolygonMode::fill && state.back_mode == PolygonMode::fill;
+    const bool filled = is_filled(state);
     if (!filled && culled(state.cull, front)) continue;  // by the whole polygon's facing, which selects the mode
     if (const PolygonMode mode = front ? state.front_mode : state.back_mode; mode != PolygonMode::fill) {
       append_outline(state, corners, polygon.primitive, front, mode, triangles);

@@ -147,7 +147,7 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
           fmt::format("window.primitive: record {} is of primitive {}, which the scene does not have", i, t.primitive));
     const Draw& draw = *draws.draw(t.primitive);
     const Topology topology = draws.scene().meshes[draw.mesh].topology;
-    const bool filled = draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
+    const bool filled = is_filled(draw);
     for (const char* column : {"window.front", "window.corners"}) {
       if (topology == Topology::triangles && !filled && lacks(column))
         throw std::invalid_argument(std::string(column) + ": left out, and a draw's polygons are not filled");
@@ -196,8 +196,7 @@ void sort_triangles(Capture& c) {
 
 void sort_fragments(Capture& c) {
   std::vector<Covered>& covered = c.records.covered;
-  const auto order =
-      order_by(covered, [&](std::size_t i) { return std::tuple(covered[i].triangle, covered[i].y, covered[i].x); });
+  const auto order = order_by(covered, [&](std::size_t i) { return draw_order(covered[i]); });
   if (!order) return;
   visit_capture(Reordering{Per::fragment, *order}, c);
   reorder(covered, *order);

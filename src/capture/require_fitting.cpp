@@ -79,7 +79,7 @@ bool fit(const Scene& scene, const auto& records, auto corners_of, std::uint32_t
     const Draw* draw = draws.draw(record.primitive);
     if (draw == nullptr) return false;
     const std::uint32_t corners = corners_of(record), of_mesh = corner_count(scene.meshes[draw->mesh].topology);
-    const bool filled = draw->front_mode == PolygonMode::fill && draw->back_mode == PolygonMode::fill;
+    const bool filled = is_filled(*draw);
     return of_mesh < 3 ? corners == of_mesh : corners >= (filled ? 3 : least) && corners <= most;
   };
   return std::ranges::is_sorted(records, {}, [](const auto& r) { return r.primitive; }) &&

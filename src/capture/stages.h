@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -214,6 +215,8 @@ struct Covered {
   std::uint32_t triangle;  ///< index into the window triangles
   std::uint16_t x, y;      ///< pixel
 };
+/// Key that sorts fragments: by triangle, from the lowest row, from the left.
+inline auto draw_order(const Covered& c) { return std::tuple(c.triangle, c.y, c.x); }
 
 // 6. Each covered pixel (a fragment from here on) gets its depth: the plane through p_win at the centre, clamped to
 //    [0,1], in the frame's depth format: window z, n-bit codes as code / (2^n - 1). A plain number per fragment.

@@ -51,7 +51,7 @@ std::chrono::sys_days today(const CheckOptions& o) {
 // scene that was judged.
 bool is_whole(const CheckOptions& o, std::span<const check::SceneVerdict> verdicts) {
   std::set<std::string> groups;
-  for (const check::SceneVerdict& v : verdicts) groups.insert(v.scene.substr(0, v.scene.find('/')));
+  for (const check::SceneVerdict& v : verdicts) groups.insert(check::group_of(v.scene));
   return o.shard.empty() && groups.size() > 1 &&
          std::ranges::any_of(o.scenes, [](const std::string& path) { return std::filesystem::is_directory(path); });
 }

@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 // A diagnosis takes as long as a hundred goldens: of a change that breaks all of them a few tell the cause.
 constexpr std::size_t kMostDiagnosed = 3;
 
-std::string group_of(const std::string& scene) { return scene.substr(0, scene.find('/')); }
-
 struct Suite {
   std::vector<Scene> scenes;
   std::vector<fs::path> files;
@@ -55,7 +53,7 @@ Suite load(const GoldenOptions& o) {
   }
   const auto lies_in_suite = [&](const fs::path& file) { return fs::equivalent(file.parent_path(), o.suite); };
   if (out.whole && std::ranges::any_of(out.files, lies_in_suite)) {
-    for (const Scene& scene : out.scenes) out.groups.insert(group_of(scene.name));
+    for (const Scene& scene : out.scenes) out.groups.insert(check::group_of(scene.name));
   }
   return out;
 }
@@ -65,7 +63,7 @@ std::vector<std::string> orphans(const Suite& suite, const check::GoldenManifest
   for (const auto& golden : manifest.scenes) {
     const std::string& name = golden.first;
     const auto has_name = [&](const Scene& scene) { return scene.name == name; };
-    const bool asked = suite.whole && (suite.groups.empty() || suite.groups.contains(group_of(name)));
+    const bool asked = suite.whole && (suite.groups.empty() || suite.groups.contains(check::group_of(name)));
     if (asked && std::ranges::none_of(suite.scenes, has_name)) out.push_back(name);
   }
   return out;

@@ -203,7 +203,7 @@ void facing_turned(const DrawInput& input, const Polygon& polygon, Triangles& ou
 }
 
 void diagonals_drawn(const DrawInput& input, const Polygon& polygon, Triangles& out) {
-  const bool filled = input.draw->front_mode == PolygonMode::fill && input.draw->back_mode == PolygonMode::fill;
+  const bool filled = is_filled(*input.draw);
   if (filled || polygon.corners.size() < 3) return pipeline::to_window(input, polygon, out);
   for (std::size_t i = 2; i < polygon.corners.size(); ++i) {
     Polygon triangle{polygon.primitive, {}};

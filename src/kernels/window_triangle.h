@@ -46,7 +46,7 @@ void visit_polygon(const Draw& draw, std::size_t count, auto area, auto triangle
   const auto culled = [&](bool front) { return draw.cull != Cull::none && front == (draw.cull == Cull::front); };
   std::int64_t sum = 0;
   for (std::size_t i = 2; i < count; ++i) sum += area(i);
-  const bool front = sum > 0, filled = draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
+  const bool front = sum > 0, filled = is_filled(draw);
   const PolygonMode mode = filled ? PolygonMode::fill : front ? draw.front_mode : draw.back_mode;
   if (!filled && culled(front)) return;
   for (std::size_t i = 2; i < count && mode == PolygonMode::fill; ++i) {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -39,13 +38,12 @@ Scene at_depths(const Prober& prober, const std::string& name, const std::vector
   return scene;
 }
 
-// Depth of each rectangle, at a pixel inside one of its two triangles; none: the renderer leaves no depths.
-std::optional<std::vector<double>> depths_of(Prober& prober, const std::string& name, const std::vector<double>& depths,
-                                             DepthFormat format = DepthFormat::z24) {
+// Depth of each rectangle, at a pixel inside one of its two triangles.
+std::vector<double> depths_of(Prober& prober, const std::string& name, const std::vector<double>& depths,
+                              DepthFormat format = DepthFormat::z24) {
   Scene scene = at_depths(prober, name, depths);
   scene.frame.depth = format;
-  const Plane<double> plane = prober.draw(scene).depth;
-  if (plane.empty()) return std::nullopt;
+  const Plane<double> plane = prober.draw_depths(scene);
   std::vector<double> out;
   for (std::size_t i = 0; i < depths.size(); ++i)
     out.push_back(plane(static_cast<int>(4 * (i % 16) + 1), static_cast<int>(4 * (i / 16) + 2)));
@@ -117,9 +115,8 @@ void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes
   };
   const std::string of_24 = fmt::format("{} of {} depths are within a code of 24 bits", codes.near, n);
   try {
-    const auto left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16);
-    if (!left) throw Unsupported("it leaves no planes.depth");
-    const Codes of_16 = codes_of(16, given, *left), still = codes_of(24, given, *left);
+    const std::vector<double> left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16);
+    const Codes of_16 = codes_of(16, given, left), still = codes_of(24, given, left);
     if (of_16.codes == n) {
       for (std::size_t k = 0; k < codes.fits.size(); ++k) codes.fits[k] += of_16.fits[k];
       found(C::Depth::as_asked, of_24 + ", of 16 bits where those are asked for");
@@ -138,9 +135,7 @@ void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes
 void learn_format(Prober& prober) {
   const ConventionWords format = words_of("depth_format"), rounding = words_of("depth_rounding");
   const std::vector<double> given = given_depths();
-  const auto drawn = depths_of(prober, "depth_codes", given);
-  if (!drawn) throw Unsupported("it leaves no planes.depth");
-  const std::vector<double>& left = *drawn;
+  const std::vector<double> left = depths_of(prober, "depth_codes", given);
   if (depths_of(prober, "depth_codes", given) != left) prober.unexplained("one scene's depths, drawn twice, differ");
   const std::size_t n = given.size();
   const Codes of_16 = codes_of(16, given, left), of_24 = codes_of(24, given, left);
@@ -204,17 +199,16 @@ void learn_rows(Prober& prober) {
 void learn_depths(Prober& prober) {
   const ConventionWords range = words_of("depth_range");
   const std::vector<double> given = {0.125, 0.25, 0.5, 0.75, 0.875};
-  const auto left = depths_of(prober, "depth_range", given);
-  if (!left) throw Unsupported("it leaves no planes.depth");
+  const std::vector<double> left = depths_of(prober, "depth_range", given);
   for (const auto found : {C::DepthRange::zero_to_one, C::DepthRange::minus_one_to_one, C::DepthRange::one_to_zero}) {
-    if (fitting(found, given, *left) != given.size()) continue;
+    if (fitting(found, given, left) != given.size()) continue;
     prober.learned.conventions.depth_range = found;
     prober.found(range, name_of(found), fmt::format("{} of {} depths", given.size(), given.size()));
     return learn_format(prober);
   }
   prober.fits_none(range,
                    fmt::format("0.125, 0.25, 0.5, 0.75 and 0.875 are left as {:.4g}, {:.4g}, {:.4g}, {:.4g} and {:.4g}",
-                               (*left)[0], (*left)[1], (*left)[2], (*left)[3], (*left)[4]));
+                               (left)[0], (left)[1], (left)[2], (left)[3], (left)[4]));
   for (const char* name : {"depth_format", "depth_rounding"}) prober.open(words_of(name), "the range is open");
 }
 
@@ -272,8 +266,8 @@ struct Interpolated {
   double most = 0;  // [steps more than rounding]
 };
 
-// Draws the triangles in a square frame, and counts; false: the renderer leaves no depths.
-bool count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangles, Interpolated& out) {
+// Draws the triangles in a square frame, and counts.
+void count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangles, Interpolated& out) {
   constexpr double kDoubleError = 1e-3;  // [step]
   const C& c = prober.learned.conventions;
   std::vector<std::array<ProbeCorner, 3>> corners;
@@ -286,8 +280,7 @@ bool count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangle
   Scene scene = probe_frame(fmt::format("depth_arithmetic_{}", side), side, side);
   add_triangles(scene, corners);
   scene.frame.depth = DepthFormat::z24;
-  const Plane<double> left = prober.draw(scene).depth;
-  if (left.empty()) return false;
+  const Plane<double> left = prober.draw_depths(scene);
   const auto take = [&](const SlopedTriangle& t, int x, int y) {
     const glm::dvec2 sample = glm::dvec2(x, y) + c.sample;
     if (!t.holds(sample)) return;
@@ -309,7 +302,6 @@ bool count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangle
       for (int x = static_cast<int>(low_x); x < static_cast<int>(high_x); ++x) take(t, x, y);
     }
   }
-  return true;
 }
 
 }  // namespace
@@ -326,8 +318,8 @@ void learn_depth_arithmetic(Prober& prober) {
   const bool may_be_snapped = c.attribute_corners == C::Corners::snapped || prober.is_open("attribute_corners");
   const int bits = may_be_snapped && c.subpixel_bits != C::kFloat ? std::min(c.subpixel_bits, kFinest) : kFinest;
   Interpolated of;
-  if (!count(prober, 64, large_and_near(), of) || !count(prober, 512, small_and_far(bits), of))
-    return prober.open(words, "it leaves no planes.depth");
+  count(prober, 64, large_and_near(), of);
+  count(prober, 512, small_and_far(bits), of);
   std::string evidence = fmt::format("{} of {} depths are rounded from the exact depth", of.in_double, of.pixels);
   if (of.in_double < of.pixels) evidence += fmt::format("; others by up to {:.3g} steps more than rounding", of.most);
   if (of.from_origin < of.pixels) return prober.fits_none(words, evidence);
@@ -354,9 +346,7 @@ void learn_offset_unit(Prober& prober) {
       Scene scene = at_depths(prober, "offset_unit", {0.75});
       scene.frame.depth = format;
       scene.draws[0].polygon_offset = {0, static_cast<float>(-units * moved)};
-      const Plane<double> depth = prober.draw(scene).depth;
-      if (depth.empty()) return prober.open(kOffsetWords, "it leaves no planes.depth");
-      left[moved] = depth(1, 2);
+      left[moved] = prober.draw_depths(scene)(1, 2);
     }
     const double codes = (left[0] - left[1]) * scale, unit = codes / units;
     if (!(unit > 0.01))

@@ -21,6 +21,12 @@ Planes Prober::draw(const Scene& scene) {
   return std::move(left.planes);
 }
 
+Plane<double> Prober::draw_depths(const Scene& scene) {
+  Plane<double> depth = draw(scene).depth;
+  if (depth.empty()) throw Unsupported("it leaves no planes.depth");
+  return depth;
+}
+
 Capture Prober::captured(const Scene& probe) {
   try {
     return renderer_.capture(probe, Request{});

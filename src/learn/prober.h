@@ -41,6 +41,9 @@ class Prober {
   /// colour is left.
   Planes draw(const Scene& scene);
 
+  /// Depths of draw(). Throws Unsupported where no depth is left.
+  Plane<double> draw_depths(const Scene& scene);
+
   /// Adds a row: the convention's value was found.
   void found(const ConventionWords& words, std::string_view value, std::string evidence);
   /// Adds a row "open": the renderer does not show the convention.

@@ -128,7 +128,7 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTria
     };
     auto other = of_primitive(begin);
     const auto others_end = of_primitive(end);
-    const bool filled = work.draw->front_mode == PolygonMode::fill && work.draw->back_mode == PolygonMode::fill;
+    const bool filled = is_filled(*work.draw);
     to.reserve((filled ? 1 : 3) * std::size_t{end - begin} + static_cast<std::size_t>(others_end - other));
     const auto add_others = [&](std::uint32_t up_to) {
       for (; other != others_end && other->primitive <= up_to; ++other) {

@@ -238,6 +238,11 @@ struct Draw {
   std::optional<DrawTexture> texture;  ///< requires texture coordinates in the mesh and both polygon modes fill
 };
 
+/// Whether triangles of either facing are filled.
+inline bool is_filled(const Draw& draw) {
+  return draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
+}
+
 /// Whether a draw is lit at its vertices, and whether at its fragments.
 inline bool is_lit_per_vertex(const Draw& draw) { return draw.lit && draw.shading != Shading::phong; }
 inline bool is_lit_per_fragment(const Draw& draw) { return draw.lit && draw.shading == Shading::phong; }

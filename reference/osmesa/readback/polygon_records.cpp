@@ -171,10 +171,7 @@ void add_polygons(std::span<const FedTriangle> triangles, const ToClip& to_clip,
   }
 }
 
-bool outlined(const Mesh& mesh, const Draw& draw) {
-  return mesh.topology == Topology::triangles &&
-         (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill);
-}
+bool outlined(const Mesh& mesh, const Draw& draw) { return mesh.topology == Topology::triangles && !is_filled(draw); }
 
 // Throws Unsupported if the view volume cuts an unfilled triangle. OpenGL 2.1, section 2.12: "edges introduced by
 // clipping are flagged as boundary". Mesa draws those made by user clip planes, but none made by the view volume; of

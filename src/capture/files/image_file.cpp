@@ -201,7 +201,7 @@ void require_image_name(const fs::path& file, ColorFormat format) {
     throw ImageError(
         fmt::format("{}: TGA holds 8 bits a channel, the frame ({}) more: expected a file name ending in .png, .ppm or "
                     ".exr",
-                    file.string(), format == ColorFormat::rgba12 ? "rgba12" : "rgba16"));
+                    file.string(), name_of(format)));
   }
   if (ending == ".png" || ending == ".tga" || ending == ".ppm" || ending == ".exr") return;
   throw ImageError(fmt::format("{}: expected a file name ending in .png, .tga, .ppm or .exr", file.string()));

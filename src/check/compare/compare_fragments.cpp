@@ -20,12 +20,13 @@ namespace {
 // `open(fragment)`: whether it is legal that the fragment is extra or missing.
 Measurement covered_but(const Records<double>& candidate, const Records<double>& reference, auto open) {
   Meter meter("fragments");
-  const auto key = [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); };
   auto a = candidate.covered.begin();
   auto b = reference.covered.begin();
   while (a != candidate.covered.end() || b != reference.covered.end()) {
-    const bool extra = b == reference.covered.end() || (a != candidate.covered.end() && key(*a) < key(*b));
-    const bool lacks = a == candidate.covered.end() || (b != reference.covered.end() && key(*b) < key(*a));
+    const bool extra =
+        b == reference.covered.end() || (a != candidate.covered.end() && draw_order(*a) < draw_order(*b));
+    const bool lacks =
+        a == candidate.covered.end() || (b != reference.covered.end() && draw_order(*b) < draw_order(*a));
     const Covered& c = lacks ? *b : *a;
     if ((extra || lacks) && open(c)) {
       meter.ambiguous();
@@ -55,15 +56,22 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
   return covered_but(candidate, reference, [](const Covered&) { return false; });
 }
 
+FragmentSums fragment_sums(std::span<const Covered> fragments, std::span<const WindowTriangle<double>> triangles,
+                           int width, int height) {
+  FragmentSums out{{width, height}, {width, height}};
+  for (const Covered& c : fragments) {
+    ++out.count(c.x, c.y);
+    out.id_sum(c.x, c.y) += id_weight(triangles[c.triangle].primitive);
+  }
+  return out;
+}
+
 bool are_sums_of(const Records<double>& records, const Planes& planes) {
   if (records.covered.empty() || planes.count.empty()) return false;
-  Plane<std::uint32_t> count(planes.count.width(), planes.count.height());
-  Plane<std::uint64_t> sums(planes.count.width(), planes.count.height());
-  for (const Covered& c : records.covered) {
-    ++count(c.x, c.y);
-    sums(c.x, c.y) += id_weight(records.triangles[c.triangle].primitive);
-  }
-  return count.values() == planes.count.values() && (planes.id_sum.empty() || sums.values() == planes.id_sum.values());
+  const FragmentSums sums =
+      fragment_sums(records.covered, records.triangles, planes.count.width(), planes.count.height());
+  return sums.count.values() == planes.count.values() &&
+         (planes.id_sum.empty() || sums.id_sum.values() == planes.id_sum.values());
 }
 
 namespace {

@@ -80,6 +80,13 @@ Measurement compare_covered_but_edges(const Records<double>& candidate, const Re
 /// of triangles with a corner within 4 u of midway between two grid positions.
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions);
+/// Planes count and id_sum (capture.h) of fragments whose `triangle` is an index into `triangles`.
+struct FragmentSums {
+  Plane<std::uint32_t> count;
+  Plane<std::uint64_t> id_sum;
+};
+FragmentSums fragment_sums(std::span<const Covered> fragments, std::span<const WindowTriangle<double>> triangles,
+                           int width, int height);
 /// Whether planes.count, and id_sum where there is one, are the sums of the records' fragments.
 bool are_sums_of(const Records<double>& records, const Planes& planes);
 /// compare_covered(); a fragment more or less is ambiguous where `legal` leaves open how many there are

@@ -79,8 +79,6 @@ Area snapped_area(std::span<const WindowCorner> corners, const Conventions& grid
 
 bool is_culled(Cull cull, bool front) { return cull == (front ? Cull::front : Cull::back); }
 
-bool is_filled(const Draw& draw) { return draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill; }
-
 WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width, const WindowCorner& a,
                        const WindowCorner& b, const WindowCorner& c) {
   WindowAnswer out;

@@ -9,7 +9,6 @@ namespace plumbline::check {
 
 std::vector<CoverageDifference> coverage_differences(const Evidence& e) {
   const std::vector<Covered>&a = e.candidate.records.covered, &b = e.expected.records.covered;
-  const auto key = [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); };
   std::vector<CoverageDifference> out;
   CoverageDifference now;
   const auto end = [&] {
@@ -18,8 +17,8 @@ std::vector<CoverageDifference> coverage_differences(const Evidence& e) {
   };
   std::size_t i = 0, j = 0;
   while (i < a.size() || j < b.size()) {
-    const bool has = i < a.size() && (j == b.size() || key(a[i]) <= key(b[j]));
-    const bool should = j < b.size() && (i == a.size() || key(b[j]) <= key(a[i]));
+    const bool has = i < a.size() && (j == b.size() || draw_order(a[i]) <= draw_order(b[j]));
+    const bool should = j < b.size() && (i == a.size() || draw_order(b[j]) <= draw_order(a[i]));
     const Covered& c = has ? a[i] : b[j];
     if (c.triangle != now.triangle) end();
     now.triangle = c.triangle;

@@ -96,14 +96,10 @@ bool small_dropped(const Evidence& e) {
 
 void upside_down_fragments(const Scene& scene, const Capture& in, Capture& made) {
   for (Covered& c : made.records.covered) c.y = static_cast<std::uint16_t>(scene.frame.height - 1 - c.y);
-  std::ranges::sort(made.records.covered, {}, [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); });
-  Planes& p = made.planes;
-  std::ranges::fill(p.count.values(), 0u);
-  std::ranges::fill(p.id_sum.values(), std::uint64_t{0});
-  for (const Covered& c : made.records.covered) {
-    p.count(c.x, c.y) += 1;
-    p.id_sum(c.x, c.y) += id_weight(in.records.triangles[c.triangle].primitive);
-  }
+  std::ranges::sort(made.records.covered, {}, draw_order);
+  FragmentSums sums = fragment_sums(made.records.covered, in.records.triangles, scene.frame.width, scene.frame.height);
+  made.planes.count = std::move(sums.count);
+  made.planes.id_sum = std::move(sums.id_sum);
 }
 
 // Whether depths are interpolated with perspective: stage attributes run on colours that hold the corners' depths.

@@ -62,16 +62,6 @@ void require_empty(const fs::path& folder) {
 
 }  // namespace
 
-std::string color_format_name(const FrameFormat& frame) {
-  constexpr const char* kNames[] = {"rgba8", "rgba12", "rgba16", "rgba32f"};
-  return kNames[static_cast<std::size_t>(frame.color)];
-}
-
-std::string depth_format_name(const FrameFormat& frame) {
-  constexpr const char* kNames[] = {"z8", "z16", "z24", "z32f"};
-  return kNames[static_cast<std::size_t>(frame.depth)];
-}
-
 GoldenSet::GoldenSet(const fs::path& folder, Access access) : folder_(folder) {
   const bool update = access == Access::update;
   lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -122,7 +112,8 @@ Fingerprint GoldenSet::load(const std::string& scene, const FrameFormat& frame) 
     }
     return folder_ / golden.files.at(kind).file;
   };
-  const fs::path color = require("color", color_format_name(frame)), depth = require("depth", depth_format_name(frame));
+  const fs::path color = require("color", std::string(name_of(frame.color))),
+                 depth = require("depth", std::string(name_of(frame.depth)));
   return {read_stages(require("stages", "json")), frame_color(color, read_stored(color), frame.color),
           frame_depth(depth, read_stored(depth), frame.depth)};
 }
@@ -185,9 +176,10 @@ Golden make_golden(const Scene& scene, const Fingerprint& drawn, std::map<std::s
     files[file.file] = bytes;
     out.files[kind] = file;
   };
-  const std::string color = color_format_name(scene.frame);
+  const std::string color(name_of(scene.frame.color));
   add("color", color, encode_image(color == "rgba32f" ? "color.exr" : "color.png", drawn.color, scene.frame.color));
-  add("depth", depth_format_name(scene.frame), encode_depth_codes("depth.exr", drawn.depth, scene.frame.depth));
+  add("depth", std::string(name_of(scene.frame.depth)),
+      encode_depth_codes("depth.exr", drawn.depth, scene.frame.depth));
   add("stages", "json", stages_text(drawn.stages));
   return out;
 }

@@ -19,8 +19,6 @@
 namespace plumbline::check {
 
 /// The names of the frame's formats in the manifest.
-std::string color_format_name(const FrameFormat& frame);
-std::string depth_format_name(const FrameFormat& frame);
 
 /// A set, locked while this lives: many may read it at a time, or one may update it.
 class GoldenSet {

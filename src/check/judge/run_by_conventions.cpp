@@ -151,7 +151,7 @@ Capture cover_by_rule(Renderer& referee, const Scene& scene, const Capture& in, 
     add(out.planes.count, others.planes.count);
     add(out.planes.id_sum, others.planes.id_sum);
   }
-  std::ranges::sort(out.records.covered, {}, [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); });
+  std::ranges::sort(out.records.covered, {}, draw_order);
   return out;
 }
 

@@ -130,6 +130,8 @@ bool is_legal(const SceneVerdict& verdict, Stage stage) {
   return legal || (!judged && are_within_steps(verdict, stage) && is_legal(verdict, Stage::merge));
 }
 
+std::string group_of(std::string_view scene) { return std::string(scene.substr(0, scene.find('/'))); }
+
 bool holds_alone(const SceneVerdict& verdict, Stage stage) {
   return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
     return c.stage == stage && c.judge.kind == Kind::per_stage && holds(c.outcome);

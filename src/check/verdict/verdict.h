@@ -114,6 +114,9 @@ struct SceneVerdict {
   std::vector<std::string> causes{};
 };
 
+/// Group of a scene of a suite: its name up to the first '/'.
+std::string group_of(std::string_view scene);
+
 /// Whether a row of Kind::per_stage finds nothing wrong with the stage.
 bool holds_alone(const SceneVerdict& verdict, Stage stage);
 

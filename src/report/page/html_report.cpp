@@ -145,7 +145,7 @@ void HtmlReport::add(Drawing drawing) {
   const std::string key = free_name(drawing.scene);
   Json card{{"key", key},
             {"name", drawing.scene},
-            {"group", drawing.scene.substr(0, drawing.scene.find('/'))},
+            {"group", check::group_of(drawing.scene)},
             {"description", drawing.description},
             {"outcome", drawing.outcome},
             {"fails", drawing.fails},

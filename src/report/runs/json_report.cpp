@@ -114,7 +114,7 @@ Json groups(std::span<const check::SceneVerdict> verdicts) {
   };
   std::map<std::string, Group> by_name;
   for (const check::SceneVerdict& verdict : verdicts) {
-    Group& group = by_name[verdict.scene.substr(0, verdict.scene.find('/'))];
+    Group& group = by_name[check::group_of(verdict.scene)];
     ++group.scenes;
     for (const check::Comparison& c : verdict.comparisons) {
       if (!(c.measurement.max_difference > 0)) continue;

@@ -23,8 +23,6 @@ std::vector<std::pair<std::string, std::size_t>> by_count(const Counts& counts) 
   return out;
 }
 
-std::string group_of(const check::SceneVerdict& verdict) { return verdict.scene.substr(0, verdict.scene.find('/')); }
-
 // Whether rows of the frame leave open what it holds: every item compared has several legal answers, or so has every
 // colour of the frame, or a program that draws nothing holds.
 bool is_open(const check::SceneVerdict& verdict) {
@@ -95,7 +93,7 @@ std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdi
   std::map<std::string, FeatureTally> tallies;
   std::map<std::string, Counts> wrong;
   for (const check::SceneVerdict& verdict : verdicts) {
-    FeatureTally& tally = tallies[group_of(verdict)];
+    FeatureTally& tally = tallies[check::group_of(verdict.scene)];
     switch (conformance_of(verdict)) {
       case Conformance::holds: ++tally.holds; break;
       case Conformance::legal: ++tally.legal; break;
@@ -104,7 +102,7 @@ std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdi
       case Conformance::unable: ++tally.unable; break;
       case Conformance::differs:
         ++tally.differs;
-        ++wrong[group_of(verdict)][std::string(name_of(first_wrong(verdict)->stage))];
+        ++wrong[check::group_of(verdict.scene)][std::string(name_of(first_wrong(verdict)->stage))];
     }
   }
   std::vector<FeatureTally> out;

@@ -131,7 +131,7 @@ struct Tally {
 
 std::string group_lines(std::span<const SceneVerdict> verdicts) {
   std::map<std::string, Tally> groups;
-  for (const SceneVerdict& verdict : verdicts) groups[verdict.scene.substr(0, verdict.scene.find('/'))].add(verdict);
+  for (const SceneVerdict& verdict : verdicts) groups[check::group_of(verdict.scene)].add(verdict);
   std::string out;
   for (const auto& [group, tally] : groups) {
     out += fmt::format("{:<16} {:>4} scenes {:>6} comparisons: {}\n", group, tally.scenes, tally.comparisons,

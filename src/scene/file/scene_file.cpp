@@ -210,7 +210,7 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
       if (draw.texture && scene.meshes[draw.mesh].texcoords.empty()) {
         mesh.refuse("a mesh with texture coordinates, as the draw has a texture", "one without");
       }
-      if (draw.texture && (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill)) {
+      if (draw.texture && !is_filled(draw)) {
         n.refuse("front_mode and back_mode fill, as the draw has a texture", "edges or corners of triangles");
       }
       scene.draws.push_back(std::move(draw));

@@ -112,7 +112,8 @@ TEST_F(Goldens, files_hold_every_format_without_loss) {
   for (const fs::path& file : find_scenes(folder)) {
     if (file.parent_path().stem() == "models") continue;
     const Scene scene = load_scene(file);
-    if (!seen.insert(color_format_name(scene.frame)).second && !seen.insert(depth_format_name(scene.frame)).second)
+    if (!seen.insert(std::string(name_of(scene.frame.color))).second &&
+        !seen.insert(std::string(name_of(scene.frame.depth))).second)
       continue;
     bless(scene, fingerprint(scene, *ours_));
     const GoldenDifference d = compare(scene);
