@@ -14,7 +14,7 @@ namespace plumbline::math {
 /// cross a plane many times, each plane may leave half as many again: 3, 4, 6, 9, 13, 19, 28.
 inline constexpr std::size_t kMostCorners = 28;
 
-/// Smallest altitude of a triangle [pixels].
+/// Smallest altitude of a triangle [pixels]: twice its area over its longest side; 0 where all corners coincide.
 inline double altitude(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
   const double area = std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
   const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});

@@ -108,7 +108,7 @@ inline constexpr std::array<Name, 2> kNamesOf<Conventions::Magnified> = {"up_to_
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::HalfWay> = {"down", "either"};
 
-/// v rounded to an integer.
+/// v as a whole number: half to even (nearest), floor (down) or ceil (up). NaN stays NaN.
 double rounded(Conventions::Rounding rounding, double v);
 /// Middle of the interval that the rounding maps to 0: 0 (nearest), 1/2 (down) or -1/2 (up).
 double middle_of(Conventions::Rounding rounding);

@@ -7,7 +7,7 @@
 
 namespace plumbline {
 
-/// Outcomes that a comparison of a number within [lo, hi] with another may have; lo or hi of NaN: any number.
+/// Outcomes of `v func reference` over v in [lo, hi], lo <= hi (glDepthFunc, glAlphaFunc); lo or hi of NaN: any v.
 struct Outcomes {
   bool may_pass, may_fail;
 };
@@ -25,7 +25,7 @@ bool passes_all_over(DepthFunc func, DepthFormat format, double held);
 /// frame's format has codes, the nearest codes of alpha and reference are compared, half to even.
 Outcomes alpha_outcomes(const AlphaTest& test, ColorFormat format, double lo, double hi);
 
-/// OpenGL 2.1 spec 4.1.5.
+/// Stencil test, (reference & mask) func (held & mask) (OpenGL 2.1 spec 4.1.5). `held`: the stored value.
 bool stencil_passes(const StencilFace& face, std::uint8_t held);
 /// Stencil value after the stencil and depth tests. `held`: the value before; `passes_depth`: the depth test passes.
 std::uint8_t stencil_after(const StencilFace& face, bool passes_depth, std::uint8_t held);

@@ -63,7 +63,7 @@ class LegalFold {
   void clear();
   /// Draws a hit; `certain` stands in for hit.certain.
   void draw(const Hit& hit, bool certain);
-  /// Replaces the winners.
+  /// Replaces the winners: in draw order, one entry per primitive and stencil value.
   void set(const std::vector<LegalAnswer>& winners);
   /// In draw order, the background first; one entry per winner and stencil value.
   const std::vector<LegalAnswer>& winners() const { return winners_; }
@@ -121,6 +121,7 @@ struct Legal {
   double predicted_ambiguous = 0;  ///< expected number of pixels that edges (snapping bound) or depths leave open
 
   bool empty() const { return first.empty(); }
+  /// Legal answers of pixel (x, y), in draw order; a view into `answers`. Only where !empty().
   std::span<const LegalAnswer> at(int x, int y) const {
     const std::size_t i =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(certain.width()) + static_cast<std::size_t>(x);

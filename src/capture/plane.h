@@ -41,6 +41,7 @@ class Plane {
   bool empty() const { return values_.empty(); }
   std::size_t size() const { return values_.size(); }
 
+  /// Value of pixel (x, y), 0 <= x < width(), 0 <= y < height() (asserted); row(y): the width() values of a row.
   T& operator()(int x, int y) { return values_[index(x, y)]; }
   const T& operator()(int x, int y) const { return values_[index(x, y)]; }
   T* row(int y) { return values_.data() + index(0, y); }

@@ -83,6 +83,7 @@ class Renderer {
  public:
   virtual ~Renderer() = default;
 
+  /// Abilities and conventions. Of a program they are those of its last capture(), else constant.
   virtual RendererInfo info() const = 0;
 
   /// Draws the scene. Hands out every plane it is able to show, and of the records those that the request names and

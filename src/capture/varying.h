@@ -35,7 +35,7 @@ constexpr std::string_view name_of(Varying v) { return kVaryingNames[index_of(v)
 constexpr bool is_lit(Varying v) { return v <= Varying::back_secondary; }
 /// Whether the varying is of back faces. It ends at the window stage, which chooses each triangle's colours by facing.
 constexpr bool is_back(Varying v) { return v == Varying::back_color || v == Varying::back_secondary; }
-
+/// Whether the varying is a separate specular colour, of front or back faces (OpenGL 2.1 spec 3.9).
 constexpr bool is_secondary(Varying v) { return v == Varying::secondary || v == Varying::back_secondary; }
 
 /// Whether the draw uses the varying. Where another draw of the scene does, this draw's entries of the columns are 0.

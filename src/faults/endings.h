@@ -1,5 +1,5 @@
-// Renderers that end the process, never end, take all memory or throw: for tests of what becomes of the other rows. No
-// list of faults has them.
+// Renderers that end the process, never end, take all memory or throw: for tests that other rows survive. They are in
+// no list of faults.
 #pragma once
 
 #include <memory>

@@ -14,8 +14,8 @@ struct Fault {
   std::string_view changes;          ///< what it does, in words
   Stage stage;                       ///< the stage that must be named
   void (*apply)(pipeline::Stages&);  ///< puts the fault's functions in, over those that are there
-  /// The thread of a public renderer that reports it (owner/repository#number): written from that report alone, before
-  /// its writer had read how faults are found.
+  /// The thread of a public renderer that reports it (owner/repository#number): the fault was written from that report
+  /// alone, without knowledge of the diagnosis.
   std::string_view report = {};
 
   /// The pipeline's stages with the fault alone.

@@ -35,7 +35,7 @@ void learn_clipping(Prober& prober) {
     first = std::min(first, x), last = std::max(last, x);
   }
   const auto near_to = [](int column, int expected) { return std::abs(column - expected) <= 1; };
-  const bool tested = prober.depth_func != DepthFunc::always;  // and so not drawn beyond the cleared depth, 1
+  const bool tested = prober.depth_func != DepthFunc::always;  // depths beyond the cleared one, 1, then fail
   std::string evidence = "of depths from -0.5 to 1.5 none is drawn: triangles that reach beyond a plane are left out";
   if (first <= last)
     evidence = fmt::format("of depths from -0.5 to 1.5, those from {:.2f} to {:.2f} are drawn",

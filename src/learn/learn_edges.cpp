@@ -94,7 +94,7 @@ std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Round
   // Scatter of ties, of an edge function's rounding, and of corners on a grid that is too fine to be measured.
   if (n == 0 || most - least > 3.5 * edges.front().rise / kLong) return std::nullopt;
   double sample = sum / static_cast<double>(n);
-  if (edges.front().rise == 1 && sample > 0.999) --sample;  // of all edges: lost_rows was not known to be 1
+  if (edges.front().rise == 1 && sample > 0.999) --sample;  // the lowest row was lost although lost_rows is 0
   return Grid{bits, rounding, sample, n, edges.size(), most - least};
 }
 

@@ -248,7 +248,8 @@ class OpaqueRun {
     };
     visit_covered<R, kSamples>(s, nearer_blocks, ahead, block);
     const bool all_blocks = s.x0 == 0 && s.y0 == 0 && s.x1 == kTile && s.y1 == kTile;
-    for (int i = 0; i < kSamples && hidden && all_blocks; ++i) {  // the next that it would hide are not even looked at
+    // Depth that hides the tile: paint_lane() rejects triangles behind it.
+    for (int i = 0; i < kSamples && hidden && all_blocks; ++i) {
       tiles_[i].farthest_of_all = *std::ranges::max_element(tiles_[i].farthest);
     }
   }

@@ -90,7 +90,7 @@ struct PackedTile {
   StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }
 };
 
-/// Copies the tile into its part of the frame.
+/// Copies the tile's part inside the frame into those planes that the frame has.
 void write_out(Tile& tile, Frame& frame);
 void write_out(PackedTile& tile, Frame& frame);
 

@@ -24,6 +24,7 @@ Shape record_shape(std::size_t count) {
   return shape;
 }
 
+/// Extents of a plane's array: height, width, and those of an element.
 template <class T>
 Shape plane_shape(int width, int height) {
   Shape shape{static_cast<std::size_t>(height), static_cast<std::size_t>(width)};

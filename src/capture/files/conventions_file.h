@@ -18,7 +18,8 @@ namespace plumbline {
 /// Throws JsonError (json_tree.h): not there, not of this format, a key or word that is not known, a sample outside of
 /// [0,1], bits beyond 0 to 16.
 Conventions read_conventions(const std::filesystem::path& file);
-/// Text of conventions.json: every convention, a line each.
+/// Text of conventions.json: every convention, a line each. Control characters of findings become spaces, and bytes
+/// that are no UTF-8 U+FFFD.
 std::string conventions_text(const Conventions& conventions);
 
 }  // namespace plumbline

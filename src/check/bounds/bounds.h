@@ -38,7 +38,7 @@ struct PlaneBounds {
   Vec4<double> line_shift_color{0};
 };
 
-/// The range that depths are clamped to: the format's, or the draw's (scene.h, depth_clamp).
+/// Clamp range of a primitive's depths [window z]: its draw's depth range, sorted, under depth_clamp, else [0,1].
 struct DepthLimits {
   double low = 0, high = 1;
 };
@@ -61,7 +61,7 @@ bool area_may_vanish(const WindowTriangle<double>& triangle);
 /// Whether a pixel's centre is in the triangle or beside it: no barycentric below -1/64.
 bool is_near(const WindowTriangle<double>& triangle, int x, int y);
 
-/// A primitive's window triangles.
+/// Window triangles of the primitive, a view; `records.triangles` are sorted by primitive. Empty: it has none.
 std::span<const WindowTriangle<double>> triangles_of(const Records<double>& records, std::int32_t primitive);
 
 /// Error that a polygon offset adds to a depth [u of window z], for a renderer that computes the slope in float and

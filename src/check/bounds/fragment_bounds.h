@@ -57,7 +57,8 @@ class FragmentBounds {
   /// `factor`: of u of the planes' magnitudes (bounds.h, bounds_from_origin).
   FragmentBounds(const Scene& scene, const Capture& candidate, const Capture& reference, double factor);
 
-  /// Bound of the candidate's fragment number `i`.
+  /// Bound of the candidate's fragment `i` < covered.size() [colour]. Its triangle is recorded, its primitive in the
+  /// scene.
   FragmentBound of_fragment(std::size_t i) const;
   /// Draw of the primitive, which the scene must have.
   const Draw& draw_of(std::uint32_t primitive) const { return *draws_.draw(primitive); }

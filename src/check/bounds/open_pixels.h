@@ -69,7 +69,8 @@ BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const C
 /// Copies the candidate's planes but count and id_sum into the reference's where `open` is 1; returns how many pixels.
 std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference);
 
-/// Copies `drawn` of the candidate's fragments into the reference's where `open` is 1.
+/// Copies `drawn` of the candidate's fragments into the reference's where `open` is 1. Nothing is copied unless both
+/// sides have one entry per fragment of the candidate.
 void copy_open_drawn(const Plane<std::uint8_t>& open, const Records<double>& candidate, Records<double>& reference);
 
 /// copy_open_pixels() where open_by_alpha() finds a pixel open against an OpenGL reference. That tests alpha in codes

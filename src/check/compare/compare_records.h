@@ -69,7 +69,7 @@ Measurement compare_window(const Scene& scene, const Records<double>& candidate,
 Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference, double factor,
                                  std::span<const std::uint32_t> turned = {});
 
-/// The same fragments.
+/// Fragments of stage 5, both sides in draw_order() [fragments]: each extra or missing one differs by 1.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
 /// Likewise, for a candidate of another tie rule or grid than the dialect's: a fragment more or less is ambiguous where
 /// its pixel's centre is no farther from an edge of the candidate's triangle than snapping to the declared grid and to
@@ -107,7 +107,7 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
                            double factor, double copies = 0);
 /// A varying that is not lit, at the vertices, bit for bit (as floats): stage light only copies it.
 Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference);
-/// The same fragments are drawn; nothing to compare where the candidate does not say which.
+/// `drawn` of each fragment [pixels]: differs by 1. No items where the candidate records none.
 Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference);
 
 }  // namespace plumbline::check

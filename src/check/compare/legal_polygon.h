@@ -21,6 +21,7 @@ struct Corners {
 
 /// Signed distances, in units of w, to right, left, top, bottom, near, far.
 std::array<double, 6> distances(const Vec4<double>& p);
+/// Whether the vertex is within `tolerance` [w] of clip plane `plane`, numbered as in distances().
 bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance);
 
 /// Whether all corners are inside every plane, or all outside one plane. Rounding leaves neither

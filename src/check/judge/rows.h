@@ -1,4 +1,5 @@
-// The kinds of rows of a scene's judgement, each by a function of its own (Kind, verdict.h).
+// The kinds of rows of a scene's judgement, each by a function of its own (Kind, verdict.h), which appends a row for
+// each stage that it judges.
 #pragma once
 
 #include "capture/capture.h"

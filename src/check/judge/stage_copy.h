@@ -7,7 +7,8 @@
 
 namespace plumbline::check {
 
-/// Replaces the stage's records and planes in `to` by those in `from`.
+/// Replaces the stage's records and planes in `to` by those of `from`; of texture legal.texels, of resolve
+/// planes.color, too. Other stages stay.
 void copy_stage(Stage stage, const Capture& from, Capture& to);
 
 /// Empties the stages after `stage`, up to merge.

@@ -30,7 +30,7 @@ Plane<glm::vec4> texture_coordinates(const Capture& c) {
   return of_winners(c, glm::vec4(0), fragments.size(), [&](std::size_t i) { return glm::vec4(fragments[i]); });
 }
 
-// As the records have it; else as the plane does.
+// Texels of the winners' records; planes.texel without such records.
 Plane<glm::vec4> texels_of_winners(const Capture& c) {
   const auto& texels = c.records.texels;
   Plane<glm::vec4> out =

@@ -19,7 +19,7 @@ using check::Comparison;
 using check::Outcome;
 using check::SceneVerdict;
 
-// The second of a name gets the number 2 after it, and so on.
+// Inserts under `key`, or under "key (2)", "key (3)", ... where it is taken.
 template <class Value>
 void insert(std::map<std::string, Value>& map, std::string key, Value value) {
   std::string free = key;

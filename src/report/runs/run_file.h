@@ -17,14 +17,16 @@ struct CheckRun {
   std::string file;
   RunHead head;
   std::map<std::string, double> tolerances;   ///< the ledger's factors, by row
-  std::vector<check::SceneVerdict> verdicts;  ///< all that the file holds; the places of what is worst refer to `words`
+  std::vector<check::SceneVerdict> verdicts;  ///< Place::field of each row points into `words`
   std::set<std::string> words;
 };
 
 /// Throws JsonError (json_tree.h): not what write_json() leaves.
 CheckRun read_run(const std::filesystem::path& file);
 
+/// Whether no scene has a failure.
 bool all_hold(std::span<const check::SceneVerdict> verdicts);
+/// Sum of the scenes' times [s].
 double seconds(std::span<const check::SceneVerdict> verdicts);
 
 }  // namespace plumbline::report

@@ -29,7 +29,7 @@ std::string largest(const Comparison& c) {
 // A row is a line; failure_lines() has all of it.
 std::string first_line(const std::string& note) { return note.substr(0, note.find('\n')); }
 
-// The stages that one reference does not judge for one reason, c's among them.
+// Stages that c's judge did not compare, with c's outcome and reason; c's stage included.
 std::vector<std::string_view> not_compared_as(const Comparison& c, const SceneVerdict& verdict) {
   std::vector<std::string_view> out;
   for (const Comparison& other : verdict.comparisons) {
