@@ -196,17 +196,13 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
   const auto skip = [&](const JudgeId& name, Outcome outcome, const std::string& why) {
     verdict.comparisons.push_back(not_judged(scene.name, name, Stage::resolve, outcome, why));
   };
-  std::optional<Capture> mine;
-  try {
-    mine = candidate.capture(scene, Request{});
-    require_samples(scene, mine->samples);
-  } catch (const OverBudget&) {
-    throw;  // no reference draws a scene too large to judge
-  } catch (const Unsupported& e) {
-    skip(candidate.info().name, Outcome::unsupported, e.what());
-  } catch (const std::exception& e) {
-    mine.reset();
-    skip(candidate.info().name, Outcome::failed, e.what());
+  std::optional<Capture> mine;  // no reference draws a scene too large to judge
+  if (const auto refusal = refusal_within_budget([&] {
+        Capture whole = candidate.capture(scene, Request{});
+        require_samples(scene, whole.samples);
+        mine = std::move(whole);
+      })) {
+    skip(candidate.info().name, refusal->outcome, refusal->why);
   }
   std::vector<Capture> theirs(references.size());
   for (std::size_t i = 0; i < references.size(); ++i) {

@@ -95,17 +95,9 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
   const auto nothing = [&](const std::string& name, const Refusal& refusal) {
     verdict.comparisons.push_back(not_judged(scene.name, name, Stage::merge, refusal.outcome, refusal.why));
   };
-  Capture mine;
-  std::optional<Refusal> refusal;
-  try {
-    mine = capture_all(scene, candidate, most_fragments);
-  } catch (const OverBudget&) {
-    throw;  // no reference draws a scene too large to judge
-  } catch (const Unsupported& e) {
-    refusal = {Outcome::unsupported, e.what()};
-  } catch (const std::exception& e) {
-    refusal = {Outcome::failed, e.what()};
-  }
+  Capture mine;  // no reference draws a scene too large to judge
+  const std::optional<Refusal> refusal =
+      refusal_within_budget([&] { mine = capture_all(scene, candidate, most_fragments); });
   RendererInfo shown = candidate.info();  // of a program: what it left of this scene
   const Conventions conventions = shown.conventions;
   const bool foreign = shown.profile == Profile::foreign, drew = !refusal;

@@ -16,18 +16,28 @@ struct Refusal {
   std::string why;
 };
 
+/// Calls ask(); the refusal, or nothing where it answered. Throws OverBudget on.
+template <class Ask>
+std::optional<Refusal> refusal_within_budget(Ask ask) {
+  try {
+    ask();
+    return std::nullopt;
+  } catch (const OverBudget&) {
+    throw;
+  } catch (const Unsupported& e) {
+    return Refusal{Outcome::unsupported, e.what()};
+  } catch (const std::exception& e) {
+    return Refusal{Outcome::failed, e.what()};
+  }
+}
+
 /// Calls ask(); the refusal, or nothing where it answered.
 template <class Ask>
 std::optional<Refusal> refusal_of(Ask ask) {
   try {
-    ask();
-    return std::nullopt;
-  } catch (const Unsupported& e) {
-    return Refusal{Outcome::unsupported, e.what()};
+    return refusal_within_budget(ask);
   } catch (const OverBudget& e) {
     return Refusal{Outcome::unsupported, e.what()};
-  } catch (const std::exception& e) {
-    return Refusal{Outcome::failed, e.what()};
   }
 }
 

@@ -68,9 +68,41 @@ void compare_covers(const SceneJudgement& c, const Capture& mine, const Capture&
   }
 }
 
+void compare_shown_frame(const SceneJudgement& c, const Capture& theirs, const JudgeId& name) {
+  const Records<double>& mine = c.candidate.records;
+  const auto skip = [&](std::string_view why) { c.skip(name, Stage::merge, Outcome::unsupported, why); };
+  const auto add = [&](Measurement m, std::string_view part) {
+    c.add(name, Stage::merge, std::move(m), &tolerance(c.profile, Stage::merge, part));
+  };
+  const bool replaced = colors_replace(c.scene);
+  if (!replaced && mine.drawn.empty() && !mine.covered.empty())
+    return skip("it does not show which fragments are drawn");
+  if (!replaced && lacks_fragment_records(c.candidate)) return skip(kOverBudget);
+  const double attributes = tolerance(c.profile, Stage::attributes).factor;
+  switch (c.scene.frame.color) {
+    case ColorFormat::rgba8:
+    case ColorFormat::rgba16: {
+      const bool bytes = c.scene.frame.color == ColorFormat::rgba8;
+      const std::string_view part = replaced ? (bytes ? "rgba8" : "rgba16") : (bytes ? "blend" : "blend.rgba16");
+      const double codes = tolerance(c.profile, Stage::merge, part).factor;
+      return add(replaced ? compare_codes(c.scene, c.candidate, theirs, codes, attributes)
+                          : compare_blended(c.scene, c.candidate, theirs, c.legal, codes, attributes),
+                 part);
+    }
+    case ColorFormat::rgba12: return skip("asked for 12 bits a channel, OpenGL gives 16; attributes are compared");
+    case ColorFormat::rgba32f: {
+      constexpr std::string_view kPart = "blend.float";
+      if (replaced) return skip("rgba32f: the colour of attributes, unrounded");
+      const double factor = tolerance(c.profile, Stage::merge, kPart).factor;
+      return add(compare_blended(c.scene, c.candidate, theirs, c.legal, 0, factor), kPart);
+    }
+  }
+}
+
 void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const Records<double>& mine = c.candidate.records;
   const auto factor_of = [&](Stage of, std::string_view part = "") { return tolerance(c.profile, of, part).factor; };
+  const auto skip = [&](std::string_view why) { c.skip(name, stage, Outcome::unsupported, why); };
   const auto add = [&](Measurement m, std::string_view part = "", std::string note = "") {
     c.add(name, stage, std::move(m), &tolerance(c.profile, stage, part), std::move(note));
   };
@@ -88,24 +120,17 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
       return add(
           compare_window_equal(mine, theirs.records, factor_of(stage), turned_outlines(c.scene, mine, theirs.records)));
     case Stage::coverage:
-      if (draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate)) {
-        return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-      }
+      if (draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate)) return skip(kOverBudget);
       return compare_covers(c, c.candidate, theirs, name);
     case Stage::depth:
-      if (!draws_depth_codes(c.scene, theirs)) {
-        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
-      }
+      if (!draws_depth_codes(c.scene, theirs)) return skip(no_such_depth(c.scene.frame));
       return add(compare_depth_planes(c.scene, c.candidate, theirs, factor_of(stage)));
     case Stage::attributes:
-      if (!is_plain(c.scene)) return c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
+      if (!is_plain(c.scene)) return skip(kOnlyShaded);
       return add(compare_shaded_planes(c.scene, c.candidate, theirs, factor_of(stage)));
     case Stage::texture: {
-      if (c.candidate.planes.texel.empty())
-        return c.skip(name, stage, Outcome::unsupported, "it shows no planes.texel; exact judges texture.color");
-      if (theirs.planes.texel.empty()) {
-        return c.skip(name, stage, Outcome::unsupported, "where alpha is tested, its texels are not drawn alone");
-      }
+      if (c.candidate.planes.texel.empty()) return skip("it shows no planes.texel; exact judges texture.color");
+      if (theirs.planes.texel.empty()) return skip("where alpha is tested, its texels are not drawn alone");
       std::string note;
       Measurement m = compare_texel_planes(c.scene, c.candidate, theirs, factor_of(Stage::attributes), note);
       return add(std::move(m), "", std::move(note));
@@ -113,50 +138,17 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
     case Stage::shade:
       // Without textures, lights or fog per fragment, both are the one plane of the winners' colours.
       if (is_plain(c.scene)) return c.repeat(name, Stage::attributes, stage);
-      if (lacks_fragment_records(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      if (lacks_fragment_records(c.candidate)) return skip(kOverBudget);
       return add(compare_shaded_planes(c.scene, c.candidate, theirs, factor_of(Stage::attributes)));
     case Stage::visibility:
-      if (!draws_depth_codes(c.scene, theirs)) {
-        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
-      }
+      if (!draws_depth_codes(c.scene, theirs)) return skip(no_such_depth(c.scene.frame));
       if (!draws_lines_or_points(c.scene)) {
         return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal));
       }
-      if (lacks_fragment_records(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-      if (mine.depth.size() != mine.covered.size()) {
-        return c.skip(name, stage, Outcome::unsupported, "it shows no depths of fragments");
-      }
+      if (lacks_fragment_records(c.candidate)) return skip(kOverBudget);
+      if (mine.depth.size() != mine.covered.size()) return skip("it shows no depths of fragments");
       return c.add(name, stage, compare_line_or_point_winners(c.scene, c.candidate, theirs));
-    case Stage::merge: {
-      const bool replaced = colors_replace(c.scene);
-      if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {
-        return c.skip(name, stage, Outcome::unsupported, "it does not show which fragments are drawn");
-      }
-      if (!replaced && lacks_fragment_records(c.candidate))
-        return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-      const double attributes = factor_of(Stage::attributes);
-      switch (c.scene.frame.color) {
-        case ColorFormat::rgba8:
-        case ColorFormat::rgba16: {
-          const bool bytes = c.scene.frame.color == ColorFormat::rgba8;
-          const std::string_view part = replaced ? (bytes ? "rgba8" : "rgba16") : (bytes ? "blend" : "blend.rgba16");
-          const double codes = factor_of(stage, part);
-          return add(replaced ? compare_codes(c.scene, c.candidate, theirs, codes, attributes)
-                              : compare_blended(c.scene, c.candidate, theirs, c.legal, codes, attributes),
-                     part);
-        }
-        case ColorFormat::rgba12:
-          return c.skip(name, stage, Outcome::unsupported,
-                        "asked for 12 bits a channel, OpenGL gives 16; attributes are compared");
-        case ColorFormat::rgba32f: {
-          constexpr std::string_view kPart = "blend.float";
-          if (replaced)
-            return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
-          return add(compare_blended(c.scene, c.candidate, theirs, c.legal, 0, factor_of(stage, kPart)), kPart);
-        }
-      }
-      return;
-    }
+    case Stage::merge: return compare_shown_frame(c, theirs, name);
     case Stage::resolve: return;
   }
 }
