@@ -111,6 +111,7 @@ PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, in
   PlaneBounds out;
   out.depth = 1 + plane(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z).second;
   const auto [inv_w, e_inv_w] = plane(v[0].inv_w, v[1].inv_w, v[2].inv_w);
+  out.inv_w = e_inv_w / std::abs(inv_w);
   for (int c = 0; c < 4; ++c) {
     const auto [q, e_q] = plane(v[0].color[c] * v[0].inv_w, v[1].color[c] * v[1].inv_w, v[2].color[c] * v[2].inv_w);
     out.color[c] = (e_q + std::abs(q / inv_w) * e_inv_w) / std::abs(inv_w) + kFlushed;
@@ -128,6 +129,12 @@ Barycentrics along_major(const WindowTriangle<double>& t, const Vec2<double>& e1
 }
 
 }  // namespace
+
+Vec4<double> PlaneBounds::color_error(double factor) const {
+  const double left = 1 - factor * kFloatRounding * inv_w;
+  if (!(left > 0)) return Vec4<double>(std::numeric_limits<double>::infinity());
+  return factor * kFloatRounding / left * color;
+}
 
 DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive) {
   const Draw* draw = draws.scene().depth_clamp ? draws.draw(static_cast<std::uint32_t>(primitive)) : nullptr;
@@ -148,6 +155,7 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y, co
   const PlaneBounds along_bounds = bounds_by(t, by_major, x, y);
   out.depth = std::max(out.depth, along_bounds.depth);
   out.color = glm::max(out.color, along_bounds.color);
+  out.inv_w = std::max(out.inv_w, along_bounds.inv_w);
   const OfLine projected = at_share(t, b.value[1], limits), along = at_share(t, by_major.value[1], limits);
   out.line_shift_depth = along.depth - projected.depth;
   out.line_shift_color = along.color - projected.color;
@@ -180,6 +188,7 @@ PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, i
     const PlaneBounds b = bounds_from_origin(t, x, y, limits);
     out.depth = std::max(out.depth, b.depth);
     out.color = glm::max(out.color, b.color);
+    out.inv_w = std::max(out.inv_w, b.inv_w);
     const double distance = distance_from_line(t, x + 0.5, y + 0.5);
     if (distance >= nearest) continue;
     nearest = distance;  // of an unfilled triangle, the edge nearest the pixel

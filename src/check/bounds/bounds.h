@@ -31,11 +31,16 @@ double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<doub
 /// Error bounds of a plane's value at a pixel centre: of depth, and of the colour's four channels.
 struct PlaneBounds {
   double depth;        ///< [u of window z]
-  Vec4<double> color;  ///< [u]
+  Vec4<double> color;  ///< [u], to first order: of 1/w too little where `inv_w` is large
+  double inv_w = 0;    ///< relative error of the interpolated 1/w [u]
   /// Line: value interpolated by the position on the major axis, as by llvmpipe, less the value at the centre's
   /// projection onto the line (OpenGL 2.1, equation 3.5); signed [window z; colour].
   double line_shift_depth = 0;
   Vec4<double> line_shift_color{0};
+
+  /// Error of a colour whose planes have `factor` times the errors above: (E(c/w) + |c| E(1/w)) / (1/w - E(1/w)), as
+  /// the division makes it; infinite where 1/w may be 0.
+  Vec4<double> color_error(double factor) const;
 };
 
 /// Clamp range of a primitive's depths [window z]: its draw's depth range, sorted, under depth_clamp, else [0,1].

@@ -219,7 +219,7 @@ Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
                                : v == Varying::normal    ? normals_apart_
                                : v == Varying::secondary ? secondary_apart_
                                                          : kNowhere;
-  return factor_ * u * plane.color + glm::max(glm::abs(plane.line_shift_color), beside) +
+  return plane.color_error(factor_) + glm::max(glm::abs(plane.line_shift_color), beside) +
          enlarged(*triangle, c.x, c.y) * largest_of(triangle->primitive, vertices_apart, is_lit(v)) +
          mean_error(*triangle, c.x, c.y) + cut_error(triangle->primitive, records_.varyings[v].vertices);
 }
@@ -244,7 +244,7 @@ Vec4<double> FragmentBounds::by_other_edges(std::size_t i, const VaryingColumns<
   const Vec4<double> mine = color_of_plane(here, c.x, c.y).value;
   for (const EdgeValue& value : values) most = glm::max(most, glm::abs(value.color - mine));
   for (const WindowTriangle<double>& edge : edges)
-    most = glm::max(most, factor_ * u * bounds_from_origin(edge, c.x, c.y).color);
+    most = glm::max(most, bounds_from_origin(edge, c.x, c.y).color_error(factor_));
   return most;
 }
 
@@ -273,7 +273,7 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Draw& draw = draw_of(triangle.primitive);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
-  errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.line_shift_color), by_other_edges(i, nullptr)) +
+  errors.color = plane.color_error(factor_) + glm::max(glm::abs(plane.line_shift_color), by_other_edges(i, nullptr)) +
                  lit_error(triangle.primitive, enlarged(triangle, c.x, c.y)) + mean_error(triangle, c.x, c.y);
   for (const Varying v : kAllVaryings) {
     if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
@@ -311,7 +311,8 @@ FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   const Vec4<double> apart =
       lit_error(triangle.primitive, enlarged(triangle, c.x, c.y)) + mean_error(triangle, c.x, c.y);
-  return {factor_ * u * plane.color, glm::max(glm::abs(plane.line_shift_color), by_other_edges(i, nullptr)), apart, {}};
+  return {
+      plane.color_error(factor_), glm::max(glm::abs(plane.line_shift_color), by_other_edges(i, nullptr)), apart, {}};
 }
 
 FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
@@ -326,7 +327,7 @@ FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) co
       times = std::min(times, t.corners > 1 ? enlarged(t, x, y) : 1);
     }
     if (!std::isfinite(times)) times = 1;  // a sliver's plane, which has no bound either
-    return {factor_ * u * plane.color, plane.line_shift_color, lit_error(p, times) + mean, {}};
+    return {plane.color_error(factor_), plane.line_shift_color, lit_error(p, times) + mean, {}};
   }
   FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, {}};
   drawn_.each(x, y, [&](std::size_t i) {

@@ -187,10 +187,10 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
         const Vec4<double> bound = bounds_of_mean(candidate.triangles[c.triangle], c.x, c.y);
         const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
         const Vec4<double> allowance =
-            from_origin > 0 ? from_origin * u * bounds_from_origin(triangle, c.x, c.y).color : Vec4<double>(0);
+            from_origin > 0 ? bounds_from_origin(triangle, c.x, c.y).color_error(from_origin) : Vec4<double>(0);
         const double declared = from_origin > 0 ? declared_error(conventions, triangle, c) : 0;
         // Extrapolated to the horizon, or in an arithmetic that loses all shares: any colour.
-        if (!std::isfinite(bound.x + bound.y + bound.z + bound.w + declared)) {
+        if (!std::isfinite(bound.x + bound.y + bound.z + bound.w + allowance.x + declared)) {
           meter.ambiguous();
           for (int k = 0; k < 4; ++k) {
             const double v = candidate.attributes[i].color[k];
