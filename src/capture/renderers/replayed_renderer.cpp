@@ -48,7 +48,8 @@ bool holds_planes(const Planes& p, const Scene& scene, Stage stage) {
     case Stage::attributes:
     case Stage::shade: return !p.shaded.empty();
     case Stage::texture: return !p.texel.empty() && !p.id.empty();
-    case Stage::visibility: return !p.id.empty() && p.stencil.empty() == (scene.frame.stencil == StencilFormat::none);
+    case Stage::visibility:
+      return scene.frame.stencil == StencilFormat::none ? !p.id.empty() && p.stencil.empty() : !p.stencil.empty();
     case Stage::merge: return !p.color.empty();
     default: return false;
   }

@@ -16,6 +16,15 @@ Measurement compare_legal_count(const Planes& candidate, const Legal& legal) {
 }
 
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
+  if (candidate.id.empty() && !candidate.stencil.empty()) {
+    return compare_planes(candidate.stencil, legal.certain, "pixels", [&](Meter& meter, int x, int y) {
+      const auto answers = legal.at(x, y);
+      const std::uint8_t held = candidate.stencil(x, y), first = answers.empty() ? 0 : answers.front().stencil;
+      const auto is = [](std::uint8_t value) { return [value](const LegalAnswer& a) { return a.stencil == value; }; };
+      if (!std::ranges::all_of(answers, is(first))) meter.ambiguous();
+      meter.value(std::ranges::any_of(answers, is(held)) ? 0 : 1, 0, {x, y, -1, "stencil"}, held, first);
+    });
+  }
   return compare_planes(candidate.id, legal.certain, "pixels", [&](Meter& meter, int x, int y) {
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();
@@ -104,7 +113,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
 }  // namespace
 
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
-                                bool has_codes) {
+                                const DeclaredCodes& declared) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("step", why, candidate.depth.size());
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
@@ -112,16 +121,21 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
     const auto answers = answers_of_winner(legal, candidate, x, y);
     if (!candidate.color.empty() && is_cleared(answers)) return;
     const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
-    const auto apart = [&](const LegalAnswer& a) { return outside(z, a.z_lo, a.z_hi) / step; };
+    const double middle = declared.rounding ? z + middle_of(*declared.rounding) * step : z;
+    const auto is_of_fragment = [&](const LegalAnswer& a) { return declared.rounding && a.primitive != kBackground; };
+    const auto apart = [&](const LegalAnswer& a) {
+      return outside(is_of_fragment(a) ? middle : z, a.z_lo, a.z_hi) / step;
+    };
     if (answers.empty()) {
       return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z"}, z, 0);
     }
     const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, apart);
     const double expected = std::isnan(z) ? nearest.z_lo : std::clamp(z, nearest.z_lo, nearest.z_hi);
-    const double codes = has_codes ? z * depth_scale(scene.frame.depth) : 0;
+    const double codes = declared.has_codes ? z * depth_scale(scene.frame.depth) : 0;
     constexpr double kRoundings = 1e-6;  // of a code that was computed in double [step]
     const bool is_code = std::abs(codes - std::nearbyint(codes)) <= kRoundings;
-    meter.value(is_code ? apart(nearest) : std::max(apart(nearest), 2 * factor), factor,
+    const double most = is_of_fragment(nearest) ? factor : tolerance(Profile::oracle, Stage::depth).factor;
+    meter.value(is_code ? apart(nearest) : std::max(apart(nearest), 2 * most), most,
                 {x, y, nearest.primitive, is_code ? "z" : "z that is no code"}, z, expected);
   });
 }

@@ -1,6 +1,8 @@
 // Comparators of planes, stages 5 to 11: against another renderer's planes, and against an oracle's legal answers.
 #pragma once
 
+#include <optional>
+
 #include "capture/capture.h"
 #include "capture/conventions.h"
 #include "check/verdict/measure.h"
@@ -45,15 +47,21 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
                           const Legal& bounds = {}, const Conventions& conventions = {});
 
+/// What a candidate declares of the codes that it leaves in a format that has codes.
+struct DeclaredCodes {
+  bool has_codes = false;                                        ///< each depth must be a code of the format
+  std::optional<Conventions::Rounding> rounding = std::nullopt;  ///< of depths; none: one step either way is legal
+};
+
 /// Against legal answers; a pixel with several answers counts as ambiguous. The answer that has the pixel's own winner
 /// bounds depth (by `factor` steps of the format) and colour (by `factor` times its bound). Where no answer has that
 /// winner, visibility reports the pixel, and depth and colour need only be finite. Where the candidate shows no
-/// winners, the nearest answer counts, for colour of those that have the pixel's depth. Where only the cleared frame is
-/// legal, merge judges the depth if a colour plane is there. `has_codes`: each depth must be a code of the format.
+/// winners, the nearest answer counts, for colour of those that have the pixel's depth; visibility then judges the
+/// stencil values alone. Where only the cleared frame is legal, merge judges the depth if a colour plane is there.
 Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
-                                bool has_codes = false);
+                                const DeclaredCodes& declared = {});
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor);
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
                                 const Conventions& conventions = {});

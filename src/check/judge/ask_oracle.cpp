@@ -31,11 +31,16 @@ std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
       twice);
 }
 
-// Whether the candidate declares that its depths are codes of the scene's format.
-bool declares_codes(const SceneJudgement& c) {
+// What the candidate says of its depths' codes. Our own rounds them to the nearest.
+DeclaredCodes declared_codes(const SceneJudgement& c) {
   const Conventions& d = c.conventions;
-  const bool is_open = std::ranges::find(d.open, "depth_format") != d.open.end();
-  return c.foreign && !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open;
+  if (depth_scale(c.scene.frame.depth) == 0) return {};
+  if (!c.foreign) return {.rounding = d.depth_rounding};
+  const auto is_open = [&](std::string_view name) { return std::ranges::find(d.open, name) != d.open.end(); };
+  DeclaredCodes out;
+  out.has_codes = !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open("depth_format");
+  if (out.has_codes && !is_open("depth_rounding")) out.rounding = d.depth_rounding;
+  return out;
 }
 
 }  // namespace
@@ -49,8 +54,11 @@ void ask_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, const 
   switch (stage) {
     case Stage::coverage:
       return c.add(name, stage, compare_legal_count(planes, legal), nullptr, cracks_note(planes.count, legal));
-    case Stage::depth:
-      return add([&](double f) { return compare_legal_depth(c.scene, planes, legal, f, declares_codes(c)); });
+    case Stage::depth: {
+      const DeclaredCodes declared = declared_codes(c);
+      const Tolerance& row = tolerance(Profile::oracle, stage, declared.rounding ? "rounded" : "");
+      return c.add(name, stage, compare_legal_depth(c.scene, planes, legal, row.factor, declared), &row);
+    }
     case Stage::attributes:
     case Stage::shade: return add([&](double f) { return compare_legal_shaded(planes, legal, f); }, Stage::attributes);
     case Stage::visibility: {

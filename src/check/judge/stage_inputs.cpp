@@ -8,7 +8,7 @@ bool has_plane(const Planes& planes, Stage stage) {
   switch (stage) {
     case Stage::coverage: return !planes.count.empty();
     case Stage::depth: return !planes.depth.empty();
-    case Stage::visibility: return !planes.id.empty();
+    case Stage::visibility: return !planes.id.empty() || !planes.stencil.empty();
     case Stage::merge: return !planes.color.empty();
     default: return !planes.shaded.empty();
   }

@@ -100,13 +100,40 @@ TEST_F(LegalAnswers, AnyColourOfCodesIsAmbiguousUnderABoundOfAll) {
 TEST_F(LegalAnswers, ADepthIsACodeWhereCodesAreDeclared) {
   scene.frame.depth = DepthFormat::z16;
   show(2, 16384 / 65535.0, planes.color(kX, kY));
-  const auto declared = [&] { return compare_legal_depth(scene, planes, legal, 1, true); };
+  const auto declared = [&] { return compare_legal_depth(scene, planes, legal, 1, {.has_codes = true}); };
   EXPECT_TRUE(passes(declared()));
   planes.depth(kX, kY) = 16384.3 / 65535;
   EXPECT_TRUE(passes(depth()));
   EXPECT_TRUE(fails(declared())) << "of 24 bits";
   planes.depth(kX, kY) = NAN;
   EXPECT_TRUE(fails(declared()));
+}
+
+// 0.5 of a code lies between two.
+TEST_F(LegalAnswers, ADepthIsRoundedAsIsDeclared) {
+  using enum Conventions::Rounding;
+  scene.frame.depth = DepthFormat::z16;
+  show(2, 16384 / 65535.0, planes.color(kX, kY));
+  const double step = 1 / 65535.0, low = legal.at(kX, kY)[0].z_lo, high = legal.at(kX, kY)[0].z_hi;
+  const auto holds = [&](double z, Conventions::Rounding rounding) {
+    planes.depth(kX, kY) = z;
+    return passes(compare_legal_depth(scene, planes, legal, 0.501, {.rounding = rounding}));
+  };
+  EXPECT_TRUE(holds(low - 0.4 * step, nearest) && holds(high + 0.4 * step, nearest));
+  EXPECT_FALSE(holds(low - 0.6 * step, nearest) || holds(high + 0.6 * step, nearest));
+  EXPECT_TRUE(holds(low - 0.9 * step, down) && holds(high + 0.9 * step, up));
+  EXPECT_FALSE(holds(low - 1.1 * step, down) || holds(high + 0.1 * step, down));
+  EXPECT_FALSE(holds(low - 0.1 * step, up) || holds(high + 1.1 * step, up));
+}
+
+TEST_F(LegalAnswers, AStencilValueIsJudgedWithoutWinners) {
+  planes.id = {};
+  planes.stencil = {planes.color.width(), planes.color.height(), 0};
+  EXPECT_TRUE(passes(winner()));
+  planes.stencil(kX, kY) = 3;
+  EXPECT_TRUE(fails(winner()));
+  for (LegalAnswer& a : legal.answers) a.stencil = 3;
+  EXPECT_EQ(winner().differing, 14u) << "all others hold 0";
 }
 
 TEST_F(LegalAnswers, WithoutWinnersAnyOfThemIsLegal) {
