@@ -52,7 +52,9 @@ OffsetBounds polygon_offset(const Projected& scene, const Triangle& t, const Pol
   const double m = scale * std::max(std::abs(t.z_plane.x), std::abs(t.z_plane.y));
   const double slope = scale * std::hypot(t.z_plane.x, t.z_plane.y);
   const double altitude = t.altitude - 2 * t.reach;
-  out.middle += factor * m;
+  // OpenGL 2.1, 3.5.5: the slope is the gradient's length, or its larger component (equations 3.10 and 3.11).
+  out.middle += factor * 0.5 * (m + slope);
+  out.half += std::abs(factor) * 0.5 * (slope - m);
   out.half += altitude > 0 ? std::abs(factor) * 2 * (corner_error + slope * t.reach) / altitude : kInfinity;
   return out;
 }

@@ -217,6 +217,15 @@ double OffsetErrors::of(const WindowTriangle<double>& t) const {
          2 * (factor * m + std::abs(units) * static_cast<double>(r));
 }
 
+double OffsetErrors::by_length(const WindowTriangle<double>& t) const {
+  const Draw* draw = any_ && t.corners == 3 ? draws_.draw(t.primitive) : nullptr;
+  if (draw == nullptr || draw->polygon_offset.factor == 0) return 0;
+  const Vec3<double> z(t.v[0].p_win.z, t.v[1].p_win.z, t.v[2].p_win.z);
+  const Barycentrics b = barycentrics(t, t.v[0].p_win.x, t.v[0].p_win.y);
+  const double dx = std::abs(glm::dot(b.d_dx, z)), dy = std::abs(glm::dot(b.d_dy, z));
+  return static_cast<double>(draw->polygon_offset.factor) * (std::hypot(dx, dy) - std::max(dx, dy));
+}
+
 double OffsetErrors::of(const Records<double>& r, std::int32_t primitive) const {
   double most = 0;
   if (!any_) return most;

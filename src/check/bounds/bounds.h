@@ -78,6 +78,9 @@ class OffsetErrors {
   double of(const WindowTriangle<double>& triangle) const;
   /// The largest over a primitive's triangles.
   double of(const Records<double>& records, std::int32_t primitive) const;
+  /// Offset by the length of the depth's gradient less that by its larger component, both legal (OpenGL 2.1 spec
+  /// 3.5.5) [window z].
+  double by_length(const WindowTriangle<double>& triangle) const;
 
  private:
   DrawIndex draws_;

@@ -4,8 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "capture/fragment_outcomes.h"
+#include "check/bounds/bounds.h"
+#include "check/compare/compare_records.h"
 #include "check/judge/rows.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/check/fixtures.h"
+#include "tests/check/suite_scenes.h"
 
 namespace plumbline::check {
 namespace {
@@ -198,6 +203,26 @@ TEST(StrangersPositions, MayBeARoundingOffWhereNoPlaneCuts) {
     run_exact_stage(c, *exact, Stage::clip, "exact");
     EXPECT_EQ(out.at(0).outcome == Outcome::different, !foreign);
   }
+}
+
+// OpenGL allows the gradient's length, and its larger component for it.
+TEST(OffsetSlope, OfAStrangerIsTheGradientsLengthOrItsLargerComponent) {
+  const Scene scene = suite_scene("polygon_offset/decals_z24");
+  const Records<double> ours = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()}).records;
+  const OffsetErrors offsets(scene);
+  const auto differing = [&](double share, double from_origin) {
+    Records<double> theirs = ours;
+    for (std::size_t i = 0; i < theirs.depth.size(); ++i) {
+      const double moved = share * offsets.by_length(theirs.triangles[theirs.covered[i].triangle]);
+      theirs.depth[i] = depth_in_format(scene.frame.depth, theirs.depth[i] + moved);
+    }
+    return compare_depth(scene, theirs, ours, 1, {}, from_origin).differing;
+  };
+  EXPECT_EQ(differing(0, 1), 0u);
+  EXPECT_EQ(differing(1, 1), 0u);
+  EXPECT_GT(differing(1, 0), 100u) << "ours is the larger component";
+  EXPECT_GT(differing(2, 1), 100u);
+  EXPECT_GT(differing(-1, 1), 100u);
 }
 
 }  // namespace
