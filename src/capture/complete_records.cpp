@@ -107,19 +107,34 @@ void derive_cut(const DrawIndex& draws, Records<double>& r) {
   }
 }
 
+// Side on which the triangle's third place lies of the line through the first two: 1 left of it, -1 right, 0 on it.
+template <class Place>
+int side_of(const WindowTriangle<double>& t, Place place) {
+  const auto a = place(t.v[0]), e1 = place(t.v[1]) - a, e2 = place(t.v[2]) - a;
+  return int{e1.x * e2.y > e1.y * e2.x} - int{e1.x * e2.y < e1.y * e2.x};
+}
+int unsnapped_side(const WindowTriangle<double>& t) {
+  return side_of(t, [](const WindowVertex<double>& v) { return glm::vec<2, long double>(v.p_win); });
+}
+
 // Positions are below 2^30 (require_in_range()), differences below 2^31, products below 2^62.
-bool faces_front(const WindowTriangle<double>& t, const Conventions& conventions) {
-  if (conventions.subpixel_bits == Conventions::kFloat || conventions.subpixel_bits > 8) {  // snapped is too coarse
-    using Place = glm::vec<2, long double>;
-    const auto place = [&](const WindowVertex<double>& v) {
-      if (conventions.subpixel_bits == Conventions::kFloat) return Place(v.p_win);
-      return Place(on_grid(conventions, v.p_win.x), on_grid(conventions, v.p_win.y));
-    };
-    const Place a = place(t.v[0]), e1 = place(t.v[1]) - a, e2 = place(t.v[2]) - a;
-    return e1.x * e2.y > e1.y * e2.x;
-  }
-  const glm::i64vec2 a(t.v[0].snapped), e1 = glm::i64vec2(t.v[1].snapped) - a, e2 = glm::i64vec2(t.v[2].snapped) - a;
-  return e1.x * e2.y > e1.y * e2.x;
+int snapped_side(const WindowTriangle<double>& t, const Conventions& conventions) {
+  if (conventions.subpixel_bits == Conventions::kFloat) return unsnapped_side(t);
+  if (conventions.subpixel_bits <= 8)
+    return side_of(t, [](const WindowVertex<double>& v) { return glm::i64vec2(v.snapped); });
+  return side_of(t, [&](const WindowVertex<double>& v) {  // snapped is too coarse
+    return glm::vec<2, long double>(on_grid(conventions, v.p_win.x), on_grid(conventions, v.p_win.y));
+  });
+}
+
+// Facing of a triangle that its draw has not culled: by the snapped corners, unless that face is culled, and the
+// triangle has no area on the grid, or the other face without snapping.
+bool faces_front(const WindowTriangle<double>& t, const Draw& draw, const Conventions& conventions) {
+  const int side = snapped_side(t, conventions);
+  const bool front = side > 0, is_culled = draw.cull == (front ? Cull::front : Cull::back);
+  if (!is_culled) return front;
+  const bool is_other = side == 0 || (unsnapped_side(t) > 0) != front;
+  return is_other ? !front : front;
 }
 
 // Range check: |snapped| < 2^30, so that differences fit 32 bits and their products 64; width 1 to 64 [pixels].
@@ -160,7 +175,7 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
       for (WindowVertex<double>& v : t.v) v.snapped = snapped_place(v.p_win, i, conventions);
     }
     require_in_range(t, i);
-    if (lacks("window.front")) t.front = t.corners < 3 || faces_front(t, conventions);
+    if (lacks("window.front")) t.front = t.corners < 3 || faces_front(t, draw, conventions);
   }
 }
 

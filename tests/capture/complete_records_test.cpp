@@ -255,6 +255,33 @@ TEST(CompleteRecords, snap_to_the_grid_of_the_conventions) {
   EXPECT_EQ(derived(12, down), glm::ivec2(101, -101));
 }
 
+// A step of 1/256 pixel above the base, or below it; snapped to half a pixel, it lies on the base.
+TEST(CompleteRecords, face_what_is_not_culled) {
+  Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  const Capture whole = whole_capture(scene);
+  const auto front = [&](double steps, int bits, Cull cull) {
+    scene.draws[0].cull = cull;
+    Capture capture = whole;
+    capture.records.triangles.resize(1);
+    capture.records.covered.clear();
+    WindowTriangle<double>& t = capture.records.triangles[0];
+    t.corners = 3, t.width = 1;
+    t.v[0].p_win = {10, 20, 0.5}, t.v[1].p_win = {20, 20, 0.5}, t.v[2].p_win = {15, 20 + steps / 256, 0.5};
+    capture.derived = {"window.front", "window.snapped"};
+    Conventions conventions;
+    conventions.subpixel_bits = bits;
+    complete_records(scene, capture, conventions);
+    return capture.records.triangles[0].front;
+  };
+  for (const Cull cull : {Cull::none, Cull::front, Cull::back}) {
+    EXPECT_TRUE(front(2, 8, cull)) << "as on the grid, culled or not";
+    EXPECT_FALSE(front(-2, 8, cull));
+  }
+  EXPECT_FALSE(front(2, 1, Cull::none)) << "no area on the grid";
+  EXPECT_TRUE(front(2, 1, Cull::back));
+  EXPECT_FALSE(front(2, 1, Cull::front));
+}
+
 TEST(CompleteRecords, refuse_to_guess_the_facing_of_outlines) {
   const Scene scene = load_scene(kScenes + "polygon_mode/wireframe.json", {});
   for (const char* column : {"window.front", "window.corners"}) {

@@ -8,6 +8,7 @@
 #include "capture/conventions.h"
 #include "capture/stages.h"
 #include "check/bounds/bounds.h"
+#include "check/compare/legal_window.h"
 #include "check/verdict/measure.h"
 #include "scene/scene.h"
 
@@ -59,10 +60,11 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
 
 /// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
 /// the candidate's own p_win, exactly, to the grid of its conventions. Other facings, and missing or extra triangles,
-/// are legal where the candidate's clip polygons leave them open (legal_window.h); the colours are those of the face,
-/// but for `colors` u of the value, or of 1.
+/// are legal where the candidate's clip polygons leave them open, by `area` (legal_window.h); the colours are those of
+/// the face, but for `colors` u of the value, or of 1.
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor, const Conventions& conventions = {}, double colors = 0);
+                           double factor, const Conventions& conventions = {}, double colors = 0,
+                           FacingArea area = FacingArea::snapped);
 /// Bit for bit (as floats), but 1/w, which has the tolerance `factor` [ULP]. Colours are not compared: feedback has
 /// none of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h,
 /// turned_outlines): ambiguous.

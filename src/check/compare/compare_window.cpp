@@ -34,12 +34,12 @@ Colors colors_of(const WindowTriangle<double>& t) { return {t.v[0].color, t.v[1]
 class RunComparison {
  public:
   RunComparison(Meter& meter, const Scene& scene, const Records<double>& candidate, double factor,
-                const Conventions& conventions, double colors)
+                const Conventions& conventions, double colors, FacingArea area)
       : meter_(meter),
         factor_(factor),
         conventions_(conventions),
         colors_(colors),
-        legal_(scene, candidate, factor, FacingArea::snapped, conventions) {}
+        legal_(scene, candidate, factor, area, conventions) {}
 
   void operator()(Run mine, Run theirs, std::size_t first) {
     const bool alike = std::ranges::equal(mine, theirs, [&](const auto& a, const auto& b) { return is_alike(a, b); });
@@ -160,13 +160,13 @@ class RunComparison {
 }  // namespace
 
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor, const Conventions& conventions, double colors) {
+                           double factor, const Conventions& conventions, double colors, FacingArea area) {
   const auto &a = candidate.triangles, &b = reference.triangles;
   if (candidate.matrices.empty() || candidate.matrices.size() != scene.draws.size()) {
     return mismatch("u", "no matrices", std::max(a.size(), b.size()));
   }
   Meter meter("u");
-  RunComparison compare(meter, scene, candidate, factor, conventions, colors);
+  RunComparison compare(meter, scene, candidate, factor, conventions, colors, area);
   matched_by_primitive(Run(a), Run(b), [&](Run mine, Run theirs) {
     compare(mine, theirs, mine.empty() ? 0 : static_cast<std::size_t>(mine.data() - a.data()));
   });

@@ -93,17 +93,18 @@ WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width
 // Each triangle of the fan is faced, and culled, by itself. One without area covers nothing, drawn or not, whatever it
 // faces.
 std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const WindowCorner> corners,
-                              const Conventions& grid) {
+                              const Conventions& grid, FacingArea of) {
   std::vector<WindowAnswer> out;
   for (std::size_t i = 2; i < corners.size(); ++i) {
     const std::array<WindowCorner, 3> three = {corners[i - 1], corners[i], corners[0]};
-    const Area area = snapped_area(three, grid);
+    const Area area = snapped_area(three, grid), plain = of == FacingArea::either ? unsnapped_area(three) : area;
+    const double least = std::min(area.least, plain.least), most = std::max(area.most, plain.most);
     WindowAnswer answer = answer_of(primitive, 3, 1, three[0], three[1], three[2]);
-    const bool front = area.most > 0, back = area.least < 0;
+    const bool front = most > 0, back = least < 0;
     answer.has_no_area = area.least == 0 && area.most == 0;
     answer.front = answer.has_no_area || (front && !is_culled(draw.cull, true));
     answer.back = answer.has_no_area || (back && !is_culled(draw.cull, false));
-    answer.absent = (area.least <= 0 && area.most >= 0) || answer.front != front || answer.back != back;
+    answer.absent = (least <= 0 && most >= 0) || answer.front != front || answer.back != back;
     out.push_back(answer);
   }
   return out;
@@ -148,7 +149,7 @@ std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) 
     for (const ClipPolygon& polygon : polygons) {
       const auto corners = corners_of(polygon, *number);
       if (corners.empty()) return {};
-      std::ranges::copy(fan(draw, primitive, corners, conventions_), std::back_inserter(out));
+      std::ranges::copy(fan(draw, primitive, corners, conventions_, area_), std::back_inserter(out));
     }
     return {out};
   }
@@ -165,7 +166,7 @@ std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) 
     if (is_culled(draw.cull, front)) {
       out.emplace_back();
     } else {
-      out.push_back(mode == PolygonMode::fill ? fan(draw, primitive, corners, conventions_)
+      out.push_back(mode == PolygonMode::fill ? fan(draw, primitive, corners, conventions_, area_)
                                               : outline(draw, primitive, front, corners));
     }
   }

@@ -26,6 +26,8 @@ double from_origin(const SceneJudgement& c, Stage stage) {
 // Roundings of a stranger's colours at corners, which may be products by 1/w undone, or fixed point of 16 bits.
 double corner_roundings(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
 
+FacingArea facing_area(const SceneJudgement& c) { return c.foreign ? FacingArea::either : FacingArea::snapped; }
+
 // Roundings of a stranger's clip positions that no plane cuts, u of the largest coordinate: of a view volume [0,w] in
 // z, z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again (largest seen: 1.2 u).
 constexpr double kCopiedVertices = 4;
@@ -52,7 +54,8 @@ Measurement compare_varying(const SceneJudgement& c, Stage stage, Varying v, con
   const double factor = tolerance(Profile::exact, stage).factor;
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
   if (stage == Stage::clip) return compare_clipped(c, a, b, factor, is_lit(v));
-  if (stage == Stage::window) return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c));
+  if (stage == Stage::window)
+    return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c), facing_area(c));
   if (c.foreign && v == Varying::normal) stretch_unit_normals(a.attributes, b.attributes);
   return compare_attributes(a, b, factor, from_origin(c, stage), c.conventions);
 }
@@ -175,7 +178,7 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
     case Stage::clip: return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, true)); });
     case Stage::window:
       return add([&](double f) {
-        return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c)));
+        return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c), facing_area(c)));
       });
     case Stage::coverage: {
       const bool is_told = are_sums_of(c.candidate.records, c.candidate.planes);

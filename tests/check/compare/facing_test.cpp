@@ -88,6 +88,24 @@ TEST_F(Outline, IsHeldToOneOfItsFaces) {
   EXPECT_FALSE(passes(compare(bad, front())));
 }
 
+// Of a stranger, who may decide before snapping: a quarter of a step above the base is a front face.
+TEST_F(Outline, OfAStrangerIsFacedByEitherArea) {
+  const auto by_either = [](const OutlineScene& o, const Records<double>& a, const Records<double>& b) {
+    return passes(compare_window(o.scene, a, b, 4, {}, 0, FacingArea::either));
+  };
+  const OutlineScene low(0.25), high(1);
+  EXPECT_TRUE(by_either(low, low.front(), low.back()));
+  EXPECT_FALSE(by_either(high, high.back(), high.front())) << "both areas are a front face's";
+  OutlineScene filled(0.25);
+  filled.scene.draws[0].front_mode = filled.scene.draws[0].back_mode = PolygonMode::fill;
+  filled.scene.draws[0].cull = Cull::back;
+  Records<double> drawn = filled.records;
+  drawn.triangles.push_back(
+      triangle_of({filled.corners[0].p_win, filled.corners[1].p_win, filled.corners[2].p_win}, {1, 1, 1}, 0));
+  drawn.triangles[0].front = true;
+  EXPECT_TRUE(by_either(filled, drawn, filled.records));
+}
+
 TEST_F(Outline, ItsOwnRecordsExcuseNothing) {
   // Edges that begin where they end have no area by themselves.
   const OutlineScene o(20 * 256);
