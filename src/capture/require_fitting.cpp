@@ -65,8 +65,10 @@ struct LackingVarying {
   std::string name;
 
   void group(Handed group, const auto&, const auto& records) {
-    const bool is_read = group.varying && reads(scene, stage, group);
-    if (name.empty() && is_read && records.empty() && owners_of(all, group.per).count > 0) name = group.name;
+    if (!group.varying || !std::ranges::count(carried(scene), *group.varying)) return;
+    const bool ends_before = is_back(*group.varying) && group.per >= Per::triangle;
+    const bool is_compared = reads(scene, stage, group) || (group.stage == stage && !ends_before);
+    if (name.empty() && is_compared && records.empty() && owners_of(all, group.per).count > 0) name = group.name;
   }
   void plane(Handed, const auto&) const {}
 };

@@ -88,15 +88,18 @@ void leave_recipes_to_exact(std::vector<Comparison>& rows) {
   };
   for (Comparison& row : rows) {
     if (row.judge.kind != Kind::side_by_side || row.outcome != Outcome::different) continue;
-    bool judged_by_exact = false, held = true;
+    bool is_judged = false, is_skipped = false, held = true;  // by exact
     for (const Comparison& other : rows) {
       if (other.stage != row.stage || !by_exact(other)) continue;
-      judged_by_exact |= holds(other.outcome);
+      is_judged |= holds(other.outcome);
+      is_skipped |= other.outcome == Outcome::unsupported;
       held &= !fails(other);
     }
-    if (!judged_by_exact || !held) continue;
+    const bool is_left_open = is_skipped && row.stage > Stage::matrices && row.stage < Stage::coverage;
+    if (!held || !(is_judged || is_left_open)) continue;
     row = not_judged(row.scene, row.judge, row.stage, Outcome::unsupported,
-                     "it follows another float recipe: exact judges the stage by the number format");
+                     is_judged ? "the candidate's float arithmetic is not the reference's; exact judges this stage"
+                               : "the candidate's float arithmetic is not the reference's; exact alone can judge it");
   }
 }
 

@@ -19,7 +19,8 @@ void settle_votes(std::vector<Comparison>& rows, bool plain = false);
 
 /// Rows of a candidate whose arithmetic is its own (Profile::foreign): a `different` row side by side, whose tolerance
 /// is that of one float recipe on both sides, becomes `unsupported` where exact judges the same stage and the stage
-/// holds. Rows of earlier stages judge the stage's input.
+/// holds, or, of vertex to window, where exact lacks records to judge it. Rows of earlier stages judge the stage's
+/// input.
 void leave_recipes_to_exact(std::vector<Comparison>& rows);
 
 }  // namespace plumbline::check

@@ -76,12 +76,13 @@ TEST(StrangersVaryings, ThatAreLackingAreNamed) {
   const Reference references[] = {{"exact", exact.get()}};
   OursAsAnothers other([](Capture& capture) { capture.records.varyings[Varying::back_color].vertices.clear(); });
   const SceneVerdict verdict = judge_single(scene, other, references);
-  const auto clip = std::ranges::find_if(verdict.comparisons, [](const Comparison& c) {
-    return c.stage == Stage::clip && c.judge.kind == Kind::per_stage;
-  });
-  ASSERT_NE(clip, verdict.comparisons.end());
-  EXPECT_EQ(clip->outcome, Outcome::unsupported);
-  EXPECT_EQ(clip->note, "it shows no varyings.back_color.vertices");
+  for (const Stage stage : {Stage::light, Stage::clip}) {  // which hands it on, and which reads it
+    const auto row = std::ranges::find_if(
+        verdict.comparisons, [&](const Comparison& c) { return c.stage == stage && c.judge.kind == Kind::per_stage; });
+    ASSERT_NE(row, verdict.comparisons.end());
+    EXPECT_EQ(row->outcome, Outcome::unsupported);
+    EXPECT_EQ(row->note, "it shows no varyings.back_color.vertices");
+  }
 }
 
 TEST(StrangersNormals, HaveTheirLengthWhereTheyAreNot) {

@@ -157,6 +157,19 @@ TEST(Recipes, OneThatIsNotFollowedIsLeftToExact) {
   EXPECT_EQ(first_left({beside, alone, from_scene}), Outcome::unsupported);
 }
 
+TEST(Recipes, WhatExactCannotJudgeOfTheGeometryIsNobodys) {
+  for (const Stage stage : {Stage::vertex, Stage::window}) {
+    const Comparison beside = row("osmesa", stage, Outcome::different),
+                     lacking = row({"exact", Kind::per_stage}, stage, Outcome::unsupported);
+    EXPECT_EQ(first_left({beside, lacking}), Outcome::unsupported);
+    EXPECT_EQ(first_left({beside, lacking, row({"exact", Kind::from_scene}, stage, Outcome::different)}),
+              Outcome::different);
+  }
+  const Comparison depth = row("osmesa", Stage::depth, Outcome::different),
+                   lacking = row({"exact", Kind::per_stage}, Stage::depth, Outcome::unsupported);
+  EXPECT_EQ(first_left({depth, lacking}), Outcome::different) << "its tolerance is of both arithmetics";
+}
+
 TEST(Recipes, NothingElseIsLeftToExact) {
   const Comparison beside = row("osmesa", Stage::vertex, Outcome::different);
   const Comparison wrong = row({"exact", Kind::from_scene}, Stage::vertex, Outcome::different);
