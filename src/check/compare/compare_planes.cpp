@@ -1,4 +1,5 @@
 #include "check/compare/compare_planes.h"
+#include "check/compare/blending.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,20 +70,6 @@ class OthersCover {
   const Planes &a_, &b_;
   bool comparable_ = false;
 };
-
-bool reads_frame(const BlendTerm& term) {
-  const auto reads = [](BlendFactor f) {
-    return f == BlendFactor::destination_color || f == BlendFactor::one_minus_destination_color ||
-           f == BlendFactor::destination_alpha || f == BlendFactor::one_minus_destination_alpha ||
-           f == BlendFactor::source_alpha_saturate;
-  };
-  return reads(term.source) || reads(term.destination);
-}
-bool factors_read_frame(const Scene& scene) {
-  return std::ranges::any_of(scene.draws, [](const Draw& d) {
-    return d.merge.blend && (reads_frame(d.merge.blend->rgb) || reads_frame(d.merge.blend->alpha));
-  });
-}
 
 }  // namespace
 
@@ -354,7 +341,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
 }
 
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
-                          const Legal& bounds, const Conventions& conventions) {
+                          const Legal& bounds, const Conventions& conventions, const Plane<double>& roundings) {
   const bool shows_depth = !candidate.depth.empty();
   std::string why;
   if (shows_depth &&
@@ -380,7 +367,8 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
       double off = outside(stored.middle(v), least, most);
       // The clear colour, one for all pixels, may be rounded, and encoded, otherwise than fragments are.
       if (is_cleared(x, y)) off = std::min(off, outside(v, low[c], high[c]));
-      meter.value(off / unit, codes ? factor : 0, {x, y, id, "color", true}, v, least);
+      const double tolerance = codes ? factor : roundings.empty() ? 0 : roundings(x, y);
+      meter.value(off / unit, tolerance, {x, y, id, "color", true}, v, least);
       const double code = std::clamp(std::round(scale * v), 0.0, scale);
       const bool is_code = !codes || std::abs(scale * v - code) <= scale * 2 * u;
       meter.value(is_code ? 0 : kInfinite, 0, {x, y, id, "no code", true}, scale * v, code);

@@ -43,9 +43,10 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
 /// The candidate's planes against what exact makes of the candidate's fragments: codes within `factor` half codes of
 /// the unrounded colour; rgba32f and depth equal. `bounds`: intervals of colours that roundings before merge may move,
 /// or empty. `conventions`: the candidate's rounding to codes, and encoding. A candidate without a depth plane is
-/// compared by colours alone.
+/// compared by colours alone. `roundings`: tolerance of each pixel of rgba32f [u]; empty: 0.
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
-                          const Legal& bounds = {}, const Conventions& conventions = {});
+                          const Legal& bounds = {}, const Conventions& conventions = {},
+                          const Plane<double>& roundings = {});
 
 /// What a candidate declares of the codes that it leaves in a format that has codes.
 struct DeclaredCodes {

@@ -5,6 +5,7 @@
 #include "capture/seen_as.h"
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
+#include "check/compare/blending.h"
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
@@ -206,11 +207,14 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
     case Stage::visibility: return compare_visible(c, made, name);
     case Stage::merge: {
       const Planes expected = with_either_clear_depth(c, made.planes);
+      const bool is_float = c.scene.frame.color == ColorFormat::rgba32f;
+      const bool blends = c.foreign && is_float && !colors_replace(c.scene);
+      const Plane<double> roundings = blends ? blending_roundings(c.scene, mine) : Plane<double>();
       const auto compare = [&](double f) {
-        return compare_merge(c.scene, c.candidate.planes, expected, f, made.legal, c.conventions);
+        return compare_merge(c.scene, c.candidate.planes, expected, f, made.legal, c.conventions, roundings);
       };
       const std::string note = c.candidate.planes.depth.empty() ? "its colour alone: it shows no planes.depth" : "";
-      if (c.scene.frame.color == ColorFormat::rgba32f) return c.add(name, stage, compare(1), nullptr, note);
+      if (is_float) return c.add(name, stage, compare(1), nullptr, note);
       const Tolerance& row = tolerance(Profile::exact, stage, "codes");
       return c.add(name, stage, compare(row.factor), &row, note);
     }
