@@ -61,14 +61,17 @@ struct FittingSizes {
 struct LackingVarying {
   const Scene& scene;
   Stage stage;
+  VaryingsOf of;
   const Records<double>& all;
   std::string name;
 
   void group(Handed group, const auto&, const auto& records) {
     if (!group.varying || !std::ranges::count(carried(scene), *group.varying)) return;
     const bool ends_before = is_back(*group.varying) && group.per >= Per::triangle;
-    const bool is_compared = reads(scene, stage, group) || (group.stage == stage && !ends_before);
-    if (name.empty() && is_compared && records.empty() && owners_of(all, group.per).count > 0) name = group.name;
+    const bool is_output = of == VaryingsOf::inputs_and_output && group.stage == stage && !ends_before;
+    if (name.empty() && (is_output || reads(scene, stage, group)) && records.empty() &&
+        owners_of(all, group.per).count > 0)
+      name = group.name;
   }
   void plane(Handed, const auto&) const {}
 };
@@ -90,8 +93,8 @@ bool fit(const Scene& scene, const auto& records, auto corners_of, std::uint32_t
 
 }  // namespace
 
-std::string lacking_varying(const Scene& scene, Stage stage, const Capture& in) {
-  LackingVarying out{scene, stage, in.records, ""};
+std::string lacking_varying(const Scene& scene, Stage stage, VaryingsOf of, const Capture& in) {
+  LackingVarying out{scene, stage, of, in.records, ""};
   visit_capture(out, in);
   return out.name;
 }

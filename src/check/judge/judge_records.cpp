@@ -33,7 +33,8 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
     }
     if (shown != nullptr) {
       std::string lacking = lacking_per_stage(scene, *shown, stage);
-      const std::string varying = lacking_varying(scene, stage, candidate);
+      const auto of = c.foreign ? VaryingsOf::inputs_and_output : VaryingsOf::inputs;
+      const std::string varying = lacking_varying(scene, stage, of, candidate);
       if (lacking.empty() && !varying.empty()) lacking = fmt::format("it shows no {}", varying);
       if (!lacking.empty()) {
         c.skip(name, stage, Outcome::unsupported, lacking);

@@ -23,10 +23,12 @@ constexpr std::array<Eye, kLooks> kEyes = {{{1.5f, 1.5, 0x1p-20, true},
                                             {0.5f, kUnseen, 0},
                                             {kUnseen, 0.25, 0}}};
 
-// Whether the frames differ in a pixel.
-bool is_apart(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i,
-              const Eye& eye) {
-  if (colors_apart(other.color.values()[i], given.color.values()[i], eye.codes, eye.by_alpha)) return true;
+bool are_colors_apart(const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i, const Eye& eye) {
+  return colors_apart(other.color.values()[i], given.color.values()[i], eye.codes, eye.by_alpha);
+}
+
+bool are_depths_apart(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i,
+                      const Eye& eye) {
   if (given.depth.empty() || given.depth.size() != other.depth.size()) return false;
   const double z = other.depth.values()[i];
   const double most = std::max(eye.steps * depth_step(format, z), eye.float_depth);
@@ -53,14 +55,20 @@ bool is_clear_depth(const FrameFormat& format, double z) { return std::abs(z - f
 
 FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours)
     : format_(format), given_(given) {
+  const auto holds = [&](const Plane<std::uint8_t>& legal, std::size_t i) {
+    return legal.size() == given.color.size() && legal.values()[i] != 0;
+  };
   for (std::size_t look = 0; look < kLooks; ++look) {
-    std::vector<std::uint8_t>& passed_over = passed_over_[look];
-    passed_over.resize(given.color.size());
+    const Eye& eye = kEyes[look];
     const Plane<std::uint8_t>& legal = is_of_color(static_cast<Look>(look)) ? given.is_legal_color : given.is_legal;
-    if (legal.size() != given.color.size()) continue;
-    for (std::size_t i = 0; i < passed_over.size(); ++i) {
-      const bool is_legal = legal.values()[i] != 0;
-      passed_over[i] = is_legal && is_apart(format, given, ours, i, kEyes[look]) ? 1 : 0;
+    counted_[look].resize(given.color.size(), whole);
+    for (std::size_t i = 0; i < given.color.size(); ++i) {
+      const bool is_far = are_depths_apart(format, given, ours, i, eye);
+      if (holds(legal, i)) {
+        if (is_far || are_colors_apart(given, ours, i, eye)) counted_[look][i] = passed_over;
+      } else if (is_far && holds(given.is_legal_depth, i)) {
+        counted_[look][i] = by_color;
+      }
     }
   }
 }
@@ -70,7 +78,11 @@ Apart FramesApart::from(const ColorAndDepth& frame) const {
   for (std::size_t i = 0; i < given_.color.size(); ++i) {
     if (is_same(given_, frame, i)) continue;
     for (std::size_t look = 0; look < kLooks; ++look) {
-      if (passed_over_[look][i] == 0 && is_apart(format_, given_, frame, i, kEyes[look])) ++out[look];
+      const Eye& eye = kEyes[look];
+      const Counted counted = counted_[look][i];
+      const bool is_apart = are_colors_apart(given_, frame, i, eye) ||
+                            (counted == whole && are_depths_apart(format_, given_, frame, i, eye));
+      if (counted != passed_over && is_apart) ++out[look];
     }
   }
   return out;

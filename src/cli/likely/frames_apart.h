@@ -27,6 +27,8 @@ struct GivenFrame : ColorAndDepth {
   Plane<std::uint8_t> is_legal{};
   /// Legality of the colour alone: the depth may be wrong.
   Plane<std::uint8_t> is_legal_color{};
+  /// Legality of the depth alone: where it differs from ours, the pixel counts by its colour.
+  Plane<std::uint8_t> is_legal_depth{};
   bool has_alpha = false;  ///< alpha is known; else it is not compared
   StageSet right{};        ///< stages that are judged right, or given: their faults are no causes
   StageSet wrong{};        ///< stages that are wrong on their own input: their faults are named before others
@@ -57,7 +59,8 @@ class FramesApart {
  private:
   DepthFormat format_;
   const GivenFrame& given_;
-  std::array<std::vector<std::uint8_t>, kLooks> passed_over_;
+  enum Counted : std::uint8_t { whole, by_color, passed_over };
+  std::array<std::vector<Counted>, kLooks> counted_;
 };
 
 }  // namespace plumbline::cli

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -235,21 +236,23 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
 
 namespace {
 
-bool tells_legal_colors(const check::Comparison& row) {
-  return row.stage == Stage::merge && judges_legality(row.judge, row.stage) && was_compared(row);
+bool tells_legality(const check::Comparison& row, Stage stage) {
+  return row.stage == stage && judges_legality(row.judge, row.stage) && was_compared(row);
 }
 
-// Plane of 1 where no row that judges legality finds the pixel wrong; with `colors`, no such row of colours. Empty where
-// no such row judged colours, no row finds a pixel wrong, or one does not list all of its pixels.
-Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict, bool colors) {
-  if (std::ranges::none_of(verdict.comparisons, tells_legal_colors)) return {};
+// Plane of 1 where no row that judges legality finds the pixel wrong; no such row of `part`, if given. Empty where no
+// such row judged colours, or the part, no row finds a pixel wrong, or one does not list all of its pixels.
+Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict,
+                                 std::optional<Stage> part = {}) {
+  const auto tells = [&](const check::Comparison& row) { return tells_legality(row, part.value_or(Stage::merge)); };
+  if (std::ranges::none_of(verdict.comparisons, tells)) return {};
   Plane<std::uint8_t> out(planes.color.width(), planes.color.height(), 1);
   bool any_wrong = false;
   for (const check::Comparison& row : verdict.comparisons) {
     if (row.outcome != check::Outcome::different || !judges_legality(row.judge, row.stage)) continue;
     if (row.measurement.differing_at.size() < row.measurement.differing) return {};
     any_wrong = any_wrong || !row.measurement.differing_at.empty();
-    if (colors && !tells_legal_colors(row)) continue;
+    if (part && !tells(row)) continue;
     for (const glm::ivec2 p : row.measurement.differing_at) out(p.x, p.y) = 0;
   }
   return any_wrong ? out : Plane<std::uint8_t>();
@@ -258,11 +261,11 @@ Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict
 // Whether records alone are wrong: rows that judge legality judged the frame's colours, and none finds it wrong.
 bool is_wrong_by_records_alone(const check::SceneVerdict& verdict) {
   const auto is_wrong = [](const check::Comparison& row) { return row.outcome == check::Outcome::different; };
+  const auto tells_colors = [](const check::Comparison& row) { return tells_legality(row, Stage::merge); };
   const auto is_wrong_frame = [&](const check::Comparison& row) {
     return is_wrong(row) && judges_legality(row.judge, row.stage);
   };
-  return std::ranges::any_of(verdict.comparisons, is_wrong) &&
-         std::ranges::any_of(verdict.comparisons, tells_legal_colors) &&
+  return std::ranges::any_of(verdict.comparisons, is_wrong) && std::ranges::any_of(verdict.comparisons, tells_colors) &&
          std::ranges::none_of(verdict.comparisons, is_wrong_frame);
 }
 
@@ -271,8 +274,9 @@ bool is_wrong_by_records_alone(const check::SceneVerdict& verdict) {
 GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict) {
   GivenFrame out{{left.planes.color, left.planes.depth},
                  renderer.conventions,
-                 legal_pixels(left.planes, verdict, false),
-                 legal_pixels(left.planes, verdict, true)};
+                 legal_pixels(left.planes, verdict),
+                 legal_pixels(left.planes, verdict, Stage::merge),
+                 legal_pixels(left.planes, verdict, Stage::depth)};
   out.has_alpha = true;
   for (const Stage stage : kAllStages) {
     if (stage >= Stage::merge) break;
