@@ -7,6 +7,7 @@
 
 #include "base/temporary_path.h"
 #include "cli/commands.h"
+#include "cli/likely/known_faults.h"
 #include "scene/file/scene_file.h"
 #include "scene/frame_buffer.h"
 
@@ -68,6 +69,9 @@ void list_faults() {
     const std::string report = fault.report.empty() ? "" : fmt::format(" ({})", fault.report);
     fmt::print("{:<36} {:<10} {}{}\n", fault.name, fault.stage, fault.changes, report);
   }
+  fmt::print("\nNamed by plumb check and diagnose too, from pictures; --fault does not put them in:\n");
+  for (const KnownFault& fault : picture_faults())
+    fmt::print("{:<36} {:<10} {}\n", fault.name, fault.stage, fault.says);
 }
 
 void list_scenes(const std::vector<std::string>& folders, const SceneArguments& arguments) {

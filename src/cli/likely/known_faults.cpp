@@ -138,6 +138,29 @@ void add_culls(std::vector<KnownFault>& out) {
   add("window.front_culled", "front faces are culled, though no face is to be", Cull::front);
 }
 
+// Faults of a frame, and of scenes that differ but by these.
+std::vector<KnownFault> of_pictures(const FrameFormat& frame, bool has_alpha) {
+  std::vector<KnownFault> out;
+  add_files(frame.width == frame.height, out);
+  add_encodings(out);
+  add_culls(out);
+  add_neighbours(frame, out);
+  if (has_alpha) {
+    const float cleared = frame.clear_color.a;
+    out.push_back({.stage = "merge",
+                   .name = "merge.alpha_not_written",
+                   .says = "alpha is as it was cleared",
+                   .of_frame = of_pixels([cleared](glm::vec4& color, double*) { color.a = cleared; })});
+  }
+  out.push_back({.stage = "visibility",
+                 .name = "visibility.farthest_kept",
+                 .says = "the depth test is turned round, and the depth cleared to the other end",
+                 .of_scene = keep_farthest});
+  return out;
+}
+
+constexpr std::string_view kOtherSide = ", or to another side";
+
 // Whether the fault is what the conventions declare.
 bool is_declared(const std::string_view fault, const Conventions& conventions) {
   constexpr auto kDown = Conventions::Rounding::down;
@@ -154,23 +177,23 @@ bool is_of(const StageSet& stages, const KnownFault& f) {
   return at != kStageNames.end() && stages.has(static_cast<Stage>(at - kStageNames.begin()));
 }
 
-std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
-  std::vector<KnownFault> out;
-  add_files(scene.frame.width == scene.frame.height, out);
-  add_encodings(out);
-  add_culls(out);
-  add_neighbours(scene.frame, out);
-  if (given.has_alpha) {
-    const float cleared = scene.frame.clear_color.a;
-    out.push_back({.stage = "merge",
-                   .name = "merge.alpha_not_written",
-                   .says = "alpha is as it was cleared",
-                   .of_frame = of_pixels([cleared](glm::vec4& color, double*) { color.a = cleared; })});
+std::vector<KnownFault> picture_faults() {
+  const FrameFormat square;
+  std::vector<KnownFault> all = of_pictures(square, true), out;
+  std::ranges::move(misread_states(), std::back_inserter(all));
+  for (KnownFault& fault : all) {
+    const auto same = std::ranges::find(out, fault.name, &KnownFault::name);
+    if (same == out.end()) {
+      out.push_back(std::move(fault));
+    } else if (!same->says.ends_with(kOtherSide)) {
+      same->says += kOtherSide;
+    }
   }
-  out.push_back({.stage = "visibility",
-                 .name = "visibility.farthest_kept",
-                 .says = "the depth test is turned round, and the depth cleared to the other end",
-                 .of_scene = keep_farthest});
+  return out;
+}
+
+std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
+  std::vector<KnownFault> out = of_pictures(scene.frame, given.has_alpha);
   std::ranges::move(misread_states(scene), std::back_inserter(out));
   for (const FaultInfo& fault : fault_infos()) {
     if (is_declared(fault.name, given.conventions)) continue;

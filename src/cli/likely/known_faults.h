@@ -1,4 +1,4 @@
-// Known faults that a frame may show: those of `plumb list faults`, states that are ignored (misread_states.h), and
+// Known faults that a frame may show: those of stages (src/faults), states that are misread (misread_states.h), and
 // faults of a viewport, of a depth test, of writing the file.
 #pragma once
 
@@ -13,6 +13,9 @@ namespace plumbline::cli {
 
 /// Whether the fault is of one of these stages: one of the viewport is of `window`, one of a file of `merge`.
 bool is_of(const StageSet& stages, const KnownFault& fault);
+
+/// Those that --fault does not know, one for each name.
+std::vector<KnownFault> picture_faults();
 
 /// All that are known, less those of stages that are right (GivenFrame::right) and those that the conventions declare.
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given);

@@ -94,7 +94,7 @@ constexpr auto kBlendsByAlpha = [](Draw& d) {
   return changed;
 };
 
-template <BlendFactor BlendTerm::*factor>
+template <auto factor>
 bool becomes_one(Draw& d) {
   if (!d.merge.blend) return false;
   const bool rgb = reset(d.merge.blend->rgb.*factor, BlendFactor::one);
@@ -222,15 +222,24 @@ std::vector<MisreadState> all_states() {
 
 }  // namespace
 
-std::vector<KnownFault> misread_states(const Scene& scene) {
+std::vector<KnownFault> misread_states() {
   std::vector<KnownFault> out;
   for (const MisreadState& state : all_states()) {
-    Scene changed = scene;
-    if (!state.change(changed)) continue;
     out.push_back({.stage = state.stage,
                    .name = std::string(state.stage) + "." + state.name,
                    .says = state.says,
                    .of_scene = [change = state.change](Scene& s) { change(s); }});
+  }
+  return out;
+}
+
+std::vector<KnownFault> misread_states(const Scene& scene) {
+  std::vector<KnownFault> out;
+  const std::vector<MisreadState> states = all_states();
+  std::vector<KnownFault> all = misread_states();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    Scene changed = scene;
+    if (states[i].change(changed)) out.push_back(std::move(all[i]));
   }
   return out;
 }

@@ -8,8 +8,9 @@
 
 namespace plumbline::cli {
 
-/// One fault for each state of the table that the scene sets to another value: "STAGE.STATE_ignored" where the value
-/// drawn is the default.
+/// One fault for each state of the table: "STAGE.STATE_ignored" where a scene is drawn with the state's default.
+std::vector<KnownFault> misread_states();
+/// Those that change the scene.
 std::vector<KnownFault> misread_states(const Scene& scene);
 
 }  // namespace plumbline::cli
