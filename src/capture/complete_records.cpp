@@ -217,6 +217,42 @@ void sort_fragments(Capture& c) {
   reorder(covered, *order);
 }
 
+// ---- varyings
+
+// Draw of each record of the owners; none: no such vertex or primitive in the scene, or an index that points outside.
+std::vector<const Draw*> draws_of(const DrawIndex& draws, const Records<double>& r, Per per) {
+  std::vector<const Draw*> out(owners_of(r, per).count, nullptr);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (per == Per::vertex) {
+      const auto number = draws.of_vertex(i);
+      out[i] = number ? &draws.scene().draws[*number] : nullptr;
+    } else if (per == Per::triangle) {
+      out[i] = draws.draw(r.triangles[i].primitive);
+    } else if (per == Per::fragment && r.covered[i].triangle < r.triangles.size()) {
+      out[i] = draws.draw(r.triangles[r.covered[i].triangle].primitive);
+    }
+  }
+  for (const ClipPolygon& polygon : r.polygons.polygons) {
+    const std::size_t end = std::min<std::size_t>(std::size_t{polygon.first} + polygon.count, out.size());
+    for (std::size_t i = polygon.first; per == Per::clip_vertex && i < end; ++i) out[i] = draws.draw(polygon.primitive);
+  }
+  return out;
+}
+
+// Sets the varyings to 0 that a record's draw does not carry, whatever the renderer left there.
+struct ClearUnused {
+  const DrawIndex& draws;
+  const Records<double>& all;
+  void group(Handed group, const auto&, auto& records) const {
+    if (!group.varying || records.empty()) return;
+    const std::vector<const Draw*> of = draws_of(draws, all, group.per);
+    for (std::size_t i = 0; i < std::min(of.size(), records.size()); ++i) {
+      if (of[i] != nullptr && !carries(draws.scene(), *of[i], *group.varying)) records[i] = {};
+    }
+  }
+  void plane(Handed, auto&) const {}
+};
+
 }  // namespace
 
 void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions) {
@@ -231,6 +267,7 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   derive_window(draws, conventions, capture);
   sort_triangles(capture);
   sort_fragments(capture);
+  visit_capture(ClearUnused{draws, r}, capture);
   capture.derived.clear();
   const DepthFormat format = depth_format_of(scene.frame, conventions);
   const double codes = depth_scale(format);

@@ -17,8 +17,8 @@ namespace plumbline {
 /// window.corners and window.width from the mesh and the draw; texture.lod with NaN, for it follows from nothing that
 /// is recorded.
 ///
-/// Rounds planes.depth to the nearest codes where it was read from floats, or is double's roundings (2^-50) from a code,
-/// and to float where the format is z32f.
+/// Rounds planes.depth to the nearest codes where it was read from floats, or is double's roundings (2^-50) from a
+/// code, and to float where the format is z32f. Varyings that a draw does not carry become 0.
 ///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
 /// n_eye without matrices, of cut where some vertices are lacking, of a p_win that cannot be snapped, of a position

@@ -255,6 +255,22 @@ TEST(CompleteRecords, snap_to_the_grid_of_the_conventions) {
   EXPECT_EQ(derived(12, down), glm::ivec2(101, -101));
 }
 
+TEST(CompleteRecords, clear_the_varyings_that_a_draw_does_not_carry) {
+  const Scene scene = load_scene(kScenes + "fog/per_draw.json", {});
+  const Capture was = whole_capture(scene);
+  Capture capture = was;
+  const auto fill = [](auto& column, auto value) {
+    for (auto& record : column) record = record == decltype(value){} ? value : record;
+  };
+  constexpr Vec4<double> kLeft(1, 2, 3, 4);
+  auto& position = capture.records.varyings[Varying::position];
+  fill(position.vertices, kLeft), fill(position.clipped, kLeft), fill(position.fragments, kLeft);
+  fill(position.triangles, std::array{kLeft, kLeft, kLeft});
+  EXPECT_EQ(differing_records(was, capture).size(), 4u) << "some draw has no fog";
+  complete_records(scene, capture);
+  EXPECT_THAT(differing_records(was, capture), IsEmpty());
+}
+
 // A step of 1/256 pixel above the base, or below it; snapped to half a pixel, it lies on the base.
 TEST(CompleteRecords, face_what_is_not_culled) {
   Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
