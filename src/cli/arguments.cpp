@@ -88,6 +88,11 @@ void add(CLI::App& command, CheckOptions& o) {
   command.add_flag_callback("--no-cache", without_cache, "Judge every scene anew, and keep nothing")
       ->envname("PLUMBLINE_NO_CACHE");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
+  command
+      .add_flag_callback(
+          "--no-causes", [&o] { o.seeks_causes = false; },
+          "Do not draw wrong scenes with each known fault, which takes most of the time where many are wrong")
+      ->needs(command.get_option("--program"));
   add_assets(command, o.scene_arguments);
 }
 

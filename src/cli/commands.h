@@ -38,6 +38,7 @@ struct CheckOptions {
   int jobs = 0;                ///< scenes judged at a time; 0: as many as there are processors
   WorkerLimits limits;         ///< of the processes that judge
   bool allow_missing = false;
+  bool seeks_causes = true;             ///< a program's wrong scenes are drawn with each known fault
   std::string cache = default_cache();  ///< a folder of verdicts of earlier runs (check/kept), or empty
   SceneArguments scene_arguments;
   std::string program = "plumb";  ///< as it was called, for the command that repeats a failure

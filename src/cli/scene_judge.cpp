@@ -37,13 +37,14 @@ std::optional<Planes> drawn_alone(ProgramArgument program, const Scene& scene) {
 
 // Likely causes of a program's wrong or failed scene: state or unset memory, where the program draws the scene
 // otherwise when started for it alone; else known faults.
-std::vector<std::string> causes_of(const ProgramArgument& program, const Scene& scene, const Capture& left,
+std::vector<std::string> causes_of(const CheckOptions& o, const Scene& scene, const Capture& left,
                                    const RendererInfo& renderer, const check::SceneVerdict& verdict) {
   const report::Conformance ended = report::conformance_of(verdict);
   const bool is_wrong = ended == report::Conformance::differs, is_failed = ended == report::Conformance::failed;
   const bool has_passes = antialiased(scene);  // which are drawn, not the scene
   if (has_passes || !(is_wrong || is_failed)) return {};
-  const std::optional<Planes> alone = drawn_alone(program, scene);
+  if (!o.seeks_causes) return {"known faults are not sought, by --no-causes"};
+  const std::optional<Planes> alone = drawn_alone(o.candidate, scene);
   const bool left_nothing = verdict.comparisons.front().judge.reference == renderer.name;
   if (alone && is_failed && left_nothing) return {"drawn by the program when it is started for this scene alone"};
   if (is_failed) return {};
@@ -81,7 +82,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
                     : check::judge(scene, *candidate_, asked.list, wanted, ~std::uint64_t{0}, asked.arbiters);
   check::SceneVerdict& verdict = out.verdict;
   if (outside && rules_->names_causes)
-    verdict.causes = causes_of(o.candidate, scene, drawn.candidate, candidate_->info(), verdict);
+    verdict.causes = causes_of(o, scene, drawn.candidate, candidate_->info(), verdict);
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),
                       std::back_inserter(verdict.comparisons));

@@ -171,12 +171,17 @@ TEST_F(Cli, program_of_each_submission_has_a_row) {
 
 // A known bug, in another program: it is counted over the scenes.
 TEST_F(Cli, program_that_is_wrong_is_told_by_which_known_faults) {
-  const Outcome run = plumb(
+  const std::string check =
       "check " + kScenes + "camera/transform_chain.json " + kScenes + "light/sphere_gouraud.json --program " +
-      "'" PLUMBLINE_PLUMB " capture {scene} {output}/all --fault merge.blue_first && mv {output}/all/* {output}'");
+      "'" PLUMBLINE_PLUMB " capture {scene} {output}/all --fault merge.blue_first && mv {output}/all/* {output}'";
+  const Outcome run = plumb(check);
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("wrong as by file (fault file.bgr): 2, first camera/transform_chain")) << run.text;
   EXPECT_FALSE(run.says("drawn otherwise")) << run.text;
+  const Outcome unsought = plumb(check + " --no-causes");
+  EXPECT_EQ(unsought.code, 1) << unsought.text;
+  EXPECT_TRUE(unsought.says("wrong, and known faults are not sought, by --no-causes: 2, first camera/transform_chain"))
+      << unsought.text;
 }
 
 // A server that draws its first scene again and again, then one that ends after it: by itself, each scene is right.
