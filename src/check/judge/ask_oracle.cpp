@@ -31,11 +31,10 @@ std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
       twice);
 }
 
-// What the candidate says of its depths' codes. Our own rounds them to the nearest.
+// What another renderer says of its depths' codes. (The rounding of ours is judged by exact, stage by stage.)
 DeclaredCodes declared_codes(const SceneJudgement& c) {
   const Conventions& d = c.conventions;
-  if (depth_scale(c.scene.frame.depth) == 0) return {};
-  if (!c.foreign) return {.rounding = d.depth_rounding};
+  if (depth_scale(c.scene.frame.depth) == 0 || !c.foreign) return {};
   const auto is_open = [&](std::string_view name) { return std::ranges::find(d.open, name) != d.open.end(); };
   DeclaredCodes out;
   out.has_codes = !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open("depth_format");
@@ -56,7 +55,8 @@ void ask_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, const 
       return c.add(name, stage, compare_legal_count(planes, legal), nullptr, cracks_note(planes.count, legal));
     case Stage::depth: {
       const DeclaredCodes declared = declared_codes(c);
-      const Tolerance& row = tolerance(Profile::oracle, stage, declared.rounding ? "rounded" : "");
+      // Half a step about the middle of what a declared rounding maps to the code, as exact's row has it.
+      const Tolerance& row = tolerance(declared.rounding ? Profile::exact : Profile::oracle, stage);
       return c.add(name, stage, compare_legal_depth(c.scene, planes, legal, row.factor, declared), &row);
     }
     case Stage::attributes:

@@ -136,10 +136,6 @@ constexpr std::array kLedger = {
         "that alone, and of other means, which are taken in double, one rounding."},
     Tolerance{Profile::oracle, Stage::depth, "", 1, "step",
               "The legal interval, and one step of the depth format for the rounding."},
-    Tolerance{
-        Profile::oracle, Stage::depth, "rounded", 0.501, "step",
-        "The legal interval, and half a step about the middle of what the declared rounding maps to the code; the "
-        "product by the largest code is 2^-10 off."},
     Tolerance{Profile::oracle, Stage::attributes, "", 1, "bound",
               "The oracle's own bound of float arithmetic from the scene on (reference/arithmetic/color_error.h)."},
     Tolerance{Profile::oracle, Stage::merge, "", 1, "bound",
