@@ -80,10 +80,26 @@ double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p) {
   return or_infinite(10 * (out + std::abs(z) * c_terms) / std::abs(edges.area));
 }
 
+double error_by_steps(const WindowCorners& corners, glm::dvec2 p) {
+  const Edges edges(corners);
+  double slope = 0, most = 0;
+  glm::dvec2 low(corners[0]), high(corners[0]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    slope -= corners[i].z * (edges.to(i) - edges.from(i)).y / edges.area;
+    most = std::max(most, std::abs(corners[i].z));
+    low = glm::min(low, edges.at[i]);
+    high = glm::max(high, edges.at[i]);
+  }
+  const glm::dvec2 steps = glm::ceil(glm::max(glm::abs(p - low), glm::abs(high - p))) + 2.0;  // from either side
+  return or_infinite(most * sum_of(steps) +
+                     2 * steps.y * std::max(std::abs(low.x), std::abs(high.x)) * std::abs(slope));
+}
+
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p) {
   using enum Conventions::DepthArithmetic;
   if (arithmetic == in_double) return 0;
   double out = std::max(error_by_edge_functions(corners, p), error_by_plane(corners, p));
+  if (arithmetic == in_float_stepped) out += error_by_steps(corners, p);
   if (arithmetic == in_float_from_origin) out = std::max(out, error_by_edge_equations(corners, p));
   return kU * (out + 1);
 }
@@ -117,7 +133,9 @@ double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double alt
   const double by_edges = 4 * (3 * 2 * thin + 2 * thin + 1),
                by_plane = 4 * (1 + 2 * rise + 3 * std::sqrt(2.0) * rise * thin),
                by_equations = 10 * 30 * window.x * window.y / (altitude * altitude);
-  const double in_differences = std::max(by_edges, by_plane);
+  const double of_edge = 2 * (window.y + 3) * window.x * rise / diagonal,
+               steps = arithmetic == in_float_stepped ? sum_of(window) + 6 + of_edge : 0,
+               in_differences = std::max(by_edges, by_plane) + steps;
   return kU * ((arithmetic == in_float_from_origin ? std::max(in_differences, by_equations) : in_differences) + 1);
 }
 

@@ -1,7 +1,7 @@
 // Error bounds of depths that a renderer interpolates in float, by its declared arithmetic (conventions.h).
 //
-// u = 2^-24 is float's unit roundoff. A triangle's corners lie at window positions (x_i, y_i) [pixel] with depths z_i in
-// [0,1]; e_i(p) = a_i x + b_i y + c_i is the edge function of the edge opposite corner i; A is twice the area.
+// u = 2^-24 is float's unit roundoff. A triangle's corners lie at window positions (x_i, y_i) [pixel] with depths z_i
+// in [0,1]; e_i(p) = a_i x + b_i y + c_i is the edge function of the edge opposite corner i; A is twice the area.
 #pragma once
 
 #include <array>
@@ -23,14 +23,20 @@ double error_by_edge_functions(const WindowCorners& corners, glm::dvec2 p);
 /// magnitudes at p and at the farthest corner, and the gradients' error over p's distance from the corners.
 double error_by_plane(const WindowCorners& corners, glm::dvec2 p);
 
-/// Error of a x + b y + c at p [u of window z], where a = sum z_i a_i / A, likewise b and c, and A = sum c_i; each c_i is
-/// x_j y_k - x_k y_j, whose terms are |x_j y_k| + |x_k y_j|. Five roundings on each way (difference, product, quotient,
-/// two sums), both ways: 10 u of (sum |z_i| (|a_i x| + |b_i y| + c_i's terms) + |z| sum of c_i's terms) / A. Small
-/// triangles far from the origin lose most.
+/// Error of a x + b y + c at p [u of window z], where a = sum z_i a_i / A, likewise b and c, and A = sum c_i; each c_i
+/// is x_j y_k - x_k y_j, whose terms are |x_j y_k| + |x_k y_j|. Five roundings on each way (difference, product,
+/// quotient, two sums), both ways: 10 u of (sum |z_i| (|a_i x| + |b_i y| + c_i's terms) + |z| sum of c_i's terms) / A.
+/// Small triangles far from the origin lose most.
 double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
+/// Error at p, besides a plane's, of z that is stepped there from a corner [u of window z]: along an edge from row to
+/// row, then from column to column, a sum each, of numbers of at most the largest |z_i|. The edge's x is stepped, too:
+/// two roundings a row, times |dz/dx|.
+double error_by_steps(const WindowCorners& corners, glm::dvec2 p);
+
 /// Error of a depth at p [window z], and u for its code: a product and a sum, half a unit in the last place of a number
-/// below 1 each. in_double: 0. in_float: the larger of the first two. in_float_from_origin: of all three.
+/// below 1 each. in_double: 0. in_float: the larger of the first two. in_float_stepped: that, and error_by_steps().
+/// in_float_from_origin: the largest of the first three.
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
 
 /// Sum of the errors of the corners' shares at p (window barycentrics): each is the depth of a plane that is 1 at one

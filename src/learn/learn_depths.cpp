@@ -239,6 +239,11 @@ struct SlopedTriangle {
 std::vector<SlopedTriangle> large_and_near() {
   return {{{glm::dvec3(2, 1, 9973 / 65536.0), glm::dvec3(61, 5, 39019 / 65536.0), glm::dvec3(7, 58, 60013 / 65536.0)}}};
 }
+// One that is 2,000 pixels wide and 6 high, where what is stepped from pixel to pixel adds up.
+std::vector<SlopedTriangle> long_and_low() {
+  return {
+      {{glm::dvec3(1, 1, 9973 / 65536.0), glm::dvec3(2001, 3, 60013 / 65536.0), glm::dvec3(4, 7, 19013 / 65536.0)}}};
+}
 std::vector<SlopedTriangle> small_and_far(int grid_bits) {
   const auto on_grid = [&](double p) { return std::ldexp(std::nearbyint(std::ldexp(p, grid_bits)), -grid_bits); };
   std::vector<SlopedTriangle> out;
@@ -262,12 +267,12 @@ DepthFormat format_of_24(C::Depth format) {
 // Depths of pixels within triangles, counted: those that are rounded from the exact depth, and those that are within
 // the error of each arithmetic besides.
 struct Interpolated {
-  std::size_t pixels = 0, in_double = 0, in_float = 0, from_origin = 0;
+  std::size_t pixels = 0, in_double = 0, in_float = 0, stepped = 0, from_origin = 0;
   double most = 0;  // [steps more than rounding]
 };
 
-// Draws the triangles in a square frame, and counts.
-void count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangles, Interpolated& out) {
+// Draws the triangles in a frame, and counts.
+void count(Prober& prober, glm::ivec2 size, const std::vector<SlopedTriangle>& triangles, Interpolated& out) {
   constexpr double kDoubleError = 1e-3;  // [step]
   const C& c = prober.learned.conventions;
   std::vector<std::array<ProbeCorner, 3>> corners;
@@ -277,7 +282,7 @@ void count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangle
     };
     corners.push_back({corner(0), corner(1), corner(2)});
   }
-  Scene scene = probe_frame(fmt::format("depth_arithmetic_{}", side), side, side);
+  Scene scene = probe_frame(fmt::format("depth_arithmetic_{}", size.x), size.x, size.y);
   add_triangles(scene, corners);
   scene.frame.depth = DepthFormat::z24;
   const Plane<double> left = prober.draw_depths(scene);
@@ -293,6 +298,7 @@ void count(Prober& prober, int side, const std::vector<SlopedTriangle>& triangle
     ++out.pixels;
     out.in_double += fits(C::DepthArithmetic::in_double);
     out.in_float += fits(C::DepthArithmetic::in_float);
+    out.stepped += fits(C::DepthArithmetic::in_float_stepped);
     out.from_origin += fits(C::DepthArithmetic::in_float_from_origin);
   };
   for (const SlopedTriangle& t : triangles) {
@@ -318,13 +324,15 @@ void learn_depth_arithmetic(Prober& prober) {
   const bool may_be_snapped = c.attribute_corners == C::Corners::snapped || prober.is_open("attribute_corners");
   const int bits = may_be_snapped && c.subpixel_bits != C::kFloat ? std::min(c.subpixel_bits, kFinest) : kFinest;
   Interpolated of;
-  count(prober, 64, large_and_near(), of);
-  count(prober, 512, small_and_far(bits), of);
+  count(prober, {64, 64}, large_and_near(), of);
+  count(prober, {2048, 8}, long_and_low(), of);
+  count(prober, {512, 512}, small_and_far(bits), of);
   std::string evidence = fmt::format("{} of {} depths are rounded from the exact depth", of.in_double, of.pixels);
   if (of.in_double < of.pixels) evidence += fmt::format("; others by up to {:.3g} steps more than rounding", of.most);
-  if (of.from_origin < of.pixels) return prober.fits_none(words, evidence);
+  if (std::max(of.stepped, of.from_origin) < of.pixels) return prober.fits_none(words, evidence);
   c.depth_arithmetic = of.in_double == of.pixels  ? C::DepthArithmetic::in_double
                        : of.in_float == of.pixels ? C::DepthArithmetic::in_float
+                       : of.stepped == of.pixels  ? C::DepthArithmetic::in_float_stepped
                                                   : C::DepthArithmetic::in_float_from_origin;
   prober.found(words, name_of(c.depth_arithmetic), evidence);
 }

@@ -83,28 +83,6 @@ TEST(Learn, RowsAndDepthsThatAreLeftOtherwiseAreFound) {
 
 // Depths that no other probe looks at are some codes off: float arithmetic up to a bound, and a finding beyond it. Far
 // from the origin, edge equations lose more than differences do.
-TEST(Learn, DepthsInFloatAreFound) {
-  using enum C::DepthArithmetic;
-  const auto learned_of = [](double codes, int least_side) {
-    return learned(std::make_unique<Altered>(pipeline::make_pipeline(), [=](Capture& c) {
-      for (int y = 0; c.planes.depth.width() >= least_side && y < c.planes.depth.height(); ++y) {
-        for (int x = 3; x < c.planes.depth.width(); x += 8) c.planes.depth(x, y) += codes / 16777215;
-      }
-    }));
-  };
-  EXPECT_EQ(learned_of(0, 0).depth_arithmetic, in_double);
-  for (const double codes : {1.0, -3.0}) EXPECT_EQ(learned_of(codes, 0).depth_arithmetic, in_float) << codes;
-  EXPECT_EQ(learned_of(1000, 512).depth_arithmetic, in_float_from_origin);
-  for (const auto& [codes, least_side] : {std::pair(1000.0, 0), std::pair(1e7, 512)}) {
-    const C wrong = learned_of(codes, least_side);
-    EXPECT_EQ(wrong.depth_arithmetic, in_double);
-    EXPECT_TRUE(std::ranges::any_of(wrong.unexplained,
-                                    [](const std::string& line) { return line.starts_with("depth_arithmetic: "); }));
-  }
-  const C none = learned_of(std::numeric_limits<double>::quiet_NaN(), 0);
-  EXPECT_NE(std::ranges::find(none.open, "depth_arithmetic"), none.open.end());
-}
-
 // What is nonsense leaves conventions open, at their defaults.
 // With the near plane half way to the far one, ours has the depths of a view volume of [0,w] in z.
 TEST(Learn, DepthsOfAVolumeFromZeroAreRoundedFromTheExactOnes) {

@@ -1,0 +1,40 @@
+// Arithmetics of depths that plumb learn finds.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/learn/altered_renderers.h"
+
+namespace plumbline::learn {
+namespace {
+
+TEST(LearnDepths, InFloatAreFound) {
+  using enum C::DepthArithmetic;
+  const auto learned_of = [](double codes, int least_side) {
+    return learned(std::make_unique<Altered>(pipeline::make_pipeline(), [=](Capture& c) {
+      for (int y = 0; c.planes.depth.height() >= least_side && y < c.planes.depth.height(); ++y) {
+        for (int x = 3; x < c.planes.depth.width(); x += 8) c.planes.depth(x, y) += codes / 16777215;
+      }
+    }));
+  };
+  EXPECT_EQ(learned_of(0, 0).depth_arithmetic, in_double);
+  for (const double codes : {1.0, -3.0}) EXPECT_EQ(learned_of(codes, 0).depth_arithmetic, in_float) << codes;
+  EXPECT_EQ(learned_of(1000, 512).depth_arithmetic, in_float_from_origin);
+  const C stepped = learned(std::make_unique<Altered>(pipeline::make_pipeline(), [](Capture& c) {
+    for (int x = 0; c.planes.depth.width() >= 2048 && x < 2048; ++x) {
+      for (int y = 0; y < c.planes.depth.height(); ++y) c.planes.depth(x, y) += (x / 4) / 16777215.0;
+    }
+  }));
+  EXPECT_EQ(stepped.depth_arithmetic, in_float_stepped);
+  for (const auto& [codes, least_side] : {std::pair(1000.0, 0), std::pair(1e7, 512)}) {
+    const C wrong = learned_of(codes, least_side);
+    EXPECT_EQ(wrong.depth_arithmetic, in_double);
+    EXPECT_TRUE(std::ranges::any_of(wrong.unexplained,
+                                    [](const std::string& line) { return line.starts_with("depth_arithmetic: "); }));
+  }
+  const C none = learned_of(std::numeric_limits<double>::quiet_NaN(), 0);
+  EXPECT_NE(std::ranges::find(none.open, "depth_arithmetic"), none.open.end());
+}
+
+}  // namespace
+}  // namespace plumbline::learn
