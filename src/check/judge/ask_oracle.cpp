@@ -38,7 +38,9 @@ DeclaredCodes declared_codes(const SceneJudgement& c) {
   const auto is_open = [&](std::string_view name) { return std::ranges::find(d.open, name) != d.open.end(); };
   DeclaredCodes out;
   out.has_codes = !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open("depth_format");
-  if (out.has_codes && !is_open("depth_rounding")) out.rounding = d.depth_rounding;
+  // In float the product by the largest code is rounded, too, and softpipe rounds codes of 16 bits otherwise than of 24.
+  const bool is_exact = d.depth_arithmetic == Conventions::DepthArithmetic::in_double && !is_open("depth_arithmetic");
+  if (out.has_codes && is_exact && !is_open("depth_rounding")) out.rounding = d.depth_rounding;
   return out;
 }
 
