@@ -65,7 +65,7 @@ int distance(glm::ivec2 a, glm::ivec2 b) { return std::max(std::abs(a.x - b.x), 
 // end points.
 int deviation(glm::ivec2 pixel, const std::vector<glm::ivec2>& pixels, const WindowTriangle<double>& line, int major) {
   std::vector<glm::ivec2> ends;
-  for (int i = 0; pixels.empty() && i < 2; ++i)
+  for (std::size_t i = 0; pixels.empty() && i < 2; ++i)
     ends.emplace_back(whole_in_range(line.v[i].p_win.x), whole_in_range(line.v[i].p_win.y));
   int nearest = std::numeric_limits<int>::max();
   for (const glm::ivec2 p : pixels.empty() ? ends : pixels) {
