@@ -157,7 +157,7 @@ constexpr auto kShineByCosine = [](LitPoint& at, const LightModel&) {
   at.shine = std::max(pipeline::dot(at.n_eye, pipeline::unit(towards(at))), 0.0f);
 };
 
-// Of a light that shines from behind, too.
+// Diffuse share of a light that shines from behind, too.
 constexpr auto kHalfLambert = [](LitPoint& at, const LightModel&) {
   at.wrapped = 0.5f * pipeline::dot(at.n_eye, pipeline::unit(towards(at))) + 0.5f;
 };

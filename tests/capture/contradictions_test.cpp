@@ -102,7 +102,7 @@ TEST_F(Contradictions, APictureWithoutTriangles) {
   EXPECT_TRUE(contradictions_of(c, Stage::visibility).empty());
 }
 
-// Such a fragment has no primitive; judges look its triangle up.
+// Judges look the primitive of a fragment up by its triangle, which is not there.
 TEST_F(Contradictions, AFragmentBesideNoTriangleIsRefusedWhereItIsRead) {
   const TemporaryPath folder(temporary_files(), "contradictions-", TemporaryPath::Kind::folder);
   Capture c;

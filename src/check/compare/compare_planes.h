@@ -48,7 +48,7 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
                           const Legal& bounds = {}, const Conventions& conventions = {},
                           const Plane<double>& roundings = {});
 
-/// What a candidate declares of the codes that it leaves in a format that has codes.
+/// Codes that a candidate leaves in a format that has codes, as it declares them.
 struct DeclaredCodes {
   bool has_codes = false;                                        ///< each depth must be a code of the format
   std::optional<Conventions::Rounding> rounding = std::nullopt;  ///< of depths; none: one step either way is legal

@@ -31,7 +31,7 @@ std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
       twice);
 }
 
-// What another renderer says of its depths' codes. (The rounding of ours is judged by exact, stage by stage.)
+// Codes of another renderer's depths, as it declares them. (The rounding of ours is judged by exact, stage by stage.)
 DeclaredCodes declared_codes(const SceneJudgement& c) {
   const Conventions& d = c.conventions;
   if (depth_scale(c.scene.frame.depth) == 0 || !c.foreign) return {};

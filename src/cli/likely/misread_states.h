@@ -10,7 +10,7 @@ namespace plumbline::cli {
 
 /// One fault for each state of the table: "STAGE.STATE_ignored" where a scene is drawn with the state's default.
 std::vector<KnownFault> misread_states();
-/// Those that change the scene.
+/// Faults of misread_states() that change the scene.
 std::vector<KnownFault> misread_states(const Scene& scene);
 
 }  // namespace plumbline::cli

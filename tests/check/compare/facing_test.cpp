@@ -88,7 +88,7 @@ TEST_F(Outline, IsHeldToOneOfItsFaces) {
   EXPECT_FALSE(passes(compare(bad, front())));
 }
 
-// Of a stranger, who may decide before snapping: a quarter of a step above the base is a front face.
+// Facing of a stranger, who may decide before snapping: a quarter of a step above the base is a front face.
 TEST_F(Outline, OfAStrangerIsFacedByEitherArea) {
   const auto by_either = [](const OutlineScene& o, const Records<double>& a, const Records<double>& b) {
     return passes(compare_window(o.scene, a, b, 4, {}, 0, FacingArea::either));
