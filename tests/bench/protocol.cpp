@@ -17,7 +17,7 @@ int main() {
   constexpr int kMostPixels = 64 * 64;
   constexpr std::chrono::seconds kTime{3};
   supervise();
-  const auto renderer = cli::make_program(PLUMBLINE_C_RENDERER " {serve}");
+  const auto renderer = cli::make_program({.command = PLUMBLINE_C_RENDERER " {serve}"});
   std::vector<Scene> scenes;
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   for (const std::filesystem::path& file : find_scenes(folder)) {
