@@ -42,13 +42,13 @@ TEST(Conformance, OfAScene) {
   EXPECT_EQ(conformance_of(verdict("a/b", {open, kHolds})), Conformance::holds);
   const Comparison depth = row("exact", Kind::from_scene, Stage::depth, Outcome::within);
   EXPECT_EQ(conformance_of(verdict("a/b", {open, depth})), Conformance::unable) << "nobody judged a colour";
-  EXPECT_TRUE(conformance_text(std::vector{verdict("a/b", {open})}).ends_with("several legal answers 1\n"));
+  EXPECT_TRUE(conformance_text(std::vector{verdict("a/b", {open})}).ends_with("several legal answers 1 (a/b)\n"));
   --open.measurement.ambiguous;
   EXPECT_EQ(conformance_of(verdict("a/b", {open})), Conformance::holds);
   SceneVerdict proves_nothing = verdict("a/b", {open, kLacking});
   proves_nothing.empty_holds = true;
   EXPECT_EQ(conformance_of(proves_nothing), Conformance::unable);
-  EXPECT_TRUE(conformance_text(std::vector{proves_nothing}).ends_with("in which nothing is drawn holds, too 1\n"));
+  EXPECT_TRUE(conformance_text(std::vector{proves_nothing}).ends_with("in which nothing is drawn holds, too 1 (a/b)\n"));
   proves_nothing.comparisons.push_back(kIllegal);
   EXPECT_EQ(conformance_of(proves_nothing), Conformance::differs);
   proves_nothing.comparisons = {open, kHolds};
@@ -124,7 +124,7 @@ TEST(Conformance, OfASuite) {
             "clip                  1       0       0       1       0       0  depth 1\n"
             "fog                   0       0       0       0       1       3  \n"
             "all                   1       0       0       1       1       3  depth 1\n"
-            "unable: fog 2, nothing that it left could be judged 1\n"
+            "unable: fog 2, nothing that it left could be judged 1 (fog/b)\n"
             "right or legal, and not judged: depth 1\n"
             "judged by the frame alone, wrong at the stage named or an earlier one: 1 (--each-primitive shows coverage "
             "and visibility)\n"
@@ -145,6 +145,12 @@ TEST(Conformance, OfASuite) {
   EXPECT_NE(conformance_text(verdicts).find("wrong as by window (fault window.y_flipped): 3, first clip/f\n"),
             std::string::npos)
       << "of causes that a frame does not tell apart that of the most scenes: " << conformance_text(verdicts);
+  verdicts = {verdict("clip/g", {kIllegal})};
+  verdicts.back().causes = tied.causes;
+  EXPECT_NE(conformance_text(verdicts).find("wrong as by clip (fault clip.of_one_scene), or window (fault "
+                                            "window.y_flipped): 1, first clip/g\n"),
+            std::string::npos)
+      << "equals are named together: " << conformance_text(verdicts);
   const Comparison record = row("exact", Kind::per_stage, Stage::window, Outcome::equal);
   const std::string by_records = conformance_text(std::vector{verdict("clip/e", {record, kIllegal})});
   EXPECT_EQ(by_records.find("by the frame alone"), std::string::npos) << by_records;

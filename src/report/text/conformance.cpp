@@ -40,6 +40,12 @@ bool is_open(const check::SceneVerdict& verdict) {
   return rows > 0 && (open == rows || (colors > 0 && open_colors == colors));
 }
 
+// Whether the program refused the scene. Its reason stands in a row of its own, the first of an antialiased scene's
+// passes.
+bool is_refused_by_program(const check::SceneVerdict& verdict) {
+  return !verdict.comparisons.empty() && verdict.comparisons.front().judge.reference == kProgram;
+}
+
 std::string counted(const std::vector<std::pair<std::string, std::size_t>>& counts) {
   std::vector<std::string> words;
   for (const auto& [word, count] : counts) words.push_back(fmt::format("{} {}", word, count));
@@ -48,11 +54,8 @@ std::string counted(const std::vector<std::pair<std::string, std::size_t>>& coun
 
 }  // namespace
 
-// A program's reason stands in a row of its own, the first of an antialiased scene's passes.
 std::string unable_reason(const check::SceneVerdict& verdict) {
-  const auto& rows = verdict.comparisons;
-  const bool by_itself = !rows.empty() && rows.front().judge.reference == kProgram;
-  if (by_itself) return rows.front().note;
+  if (is_refused_by_program(verdict)) return verdict.comparisons.front().note;
   if (!is_open(verdict)) return "nothing that it left could be judged";
   return verdict.empty_holds ? "a frame in which nothing is drawn holds, too"
                              : "every colour has several legal answers";
@@ -185,11 +188,16 @@ std::string not_judged_line(std::span<const check::SceneVerdict> verdicts) {
   return scenes.empty() ? "" : fmt::format("right or legal, and not judged: {}\n", counted(by_count(scenes)));
 }
 
-// Cause of the scene that `scenes` counts in most scenes; the first of equals. Empty: none is known.
+// Cause of the scene that `scenes` counts in most scenes; "A, or B", up to three, of equals. Empty: none is known.
 std::string likeliest(const check::SceneVerdict& verdict, const Counts& scenes) {
-  const auto of = [&](const std::string& cause) { return scenes.at(cause); };
-  const auto most = std::ranges::max_element(verdict.causes, {}, of);  // of as many the first
-  return most == verdict.causes.end() ? "" : *most;
+  constexpr std::size_t kShown = 3;
+  std::size_t most = 0;
+  for (const std::string& cause : verdict.causes) most = std::max(most, scenes.at(cause));
+  std::vector<std::string> out;
+  for (const std::string& cause : verdict.causes) {
+    if (scenes.at(cause) == most && out.size() < kShown) out.push_back(cause);
+  }
+  return fmt::format("{}", fmt::join(out, ", or "));
 }
 
 // One cause of many scenes is one line.
@@ -218,12 +226,26 @@ std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
   return unknown == 0 ? out : out + fmt::format("wrong, and no known fault matches: {}\n", unknown);
 }
 
+// Line on scenes that are unable, by reason. Scenes that the program did not refuse are named, up to ten.
 std::string unable_line(std::span<const check::SceneVerdict> verdicts) {
+  constexpr std::size_t kNamed = 10;
   Counts reasons;
+  std::map<std::string, std::vector<std::string>> named;
   for (const check::SceneVerdict& verdict : verdicts) {
-    if (conformance_of(verdict) == Conformance::unable) ++reasons[unable_reason(verdict)];
+    if (conformance_of(verdict) != Conformance::unable) continue;
+    const std::string reason = unable_reason(verdict);
+    ++reasons[reason];
+    if (!is_refused_by_program(verdict)) named[reason].push_back(verdict.scene);
   }
-  return reasons.empty() ? "" : fmt::format("unable: {}\n", counted(by_count(reasons)));
+  std::vector<std::string> words;
+  for (const auto& [reason, count] : by_count(reasons)) {
+    words.push_back(fmt::format("{} {}", reason, count));
+    const std::vector<std::string>& scenes = named[reason];
+    if (scenes.empty()) continue;
+    words.back() += fmt::format(" ({}{})", fmt::join(std::span(scenes).first(std::min(scenes.size(), kNamed)), ", "),
+                                scenes.size() > kNamed ? ", ..." : "");
+  }
+  return words.empty() ? "" : fmt::format("unable: {}\n", fmt::join(words, ", "));
 }
 
 }  // namespace
