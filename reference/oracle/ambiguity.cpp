@@ -296,8 +296,9 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
     share += cut(of.view, 1);
   };
   for (const Surface& other : others) {
-    const double z = std::clamp(other.win.z, 0.0, 1.0);  // in the near plane, rounding may take it below 0
-    if (other.order != kBackground && (counted || passes(other.func, z, won.win.z))) add_cuts(other);
+    const double z = std::clamp(other.win.z, 0.0, 1.0);    // in the near plane, rounding may take it below 0
+    const bool is_over_won = !won_writes && after(other);  // no depth of the winner hides it
+    if (other.order != kBackground && (counted || is_over_won || passes(other.func, z, won.win.z))) add_cuts(other);
   }
   for (const Surface& of : never_drawn) add_cuts(of);
   if (won.order != kBackground) add_cuts(won);

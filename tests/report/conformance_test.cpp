@@ -48,7 +48,8 @@ TEST(Conformance, OfAScene) {
   SceneVerdict proves_nothing = verdict("a/b", {open, kLacking});
   proves_nothing.empty_holds = true;
   EXPECT_EQ(conformance_of(proves_nothing), Conformance::unable);
-  EXPECT_TRUE(conformance_text(std::vector{proves_nothing}).ends_with("in which nothing is drawn holds, too 1 (a/b)\n"));
+  EXPECT_TRUE(
+      conformance_text(std::vector{proves_nothing}).ends_with("in which nothing is drawn holds, too 1 (a/b)\n"));
   proves_nothing.comparisons.push_back(kIllegal);
   EXPECT_EQ(conformance_of(proves_nothing), Conformance::differs);
   proves_nothing.comparisons = {open, kHolds};
