@@ -54,7 +54,7 @@ TEST_F(CheckInCi, folders_that_cannot_be_written_end_the_run_before_it_begins) {
 }
 
 TEST_F(CheckInCi, shards_come_to_the_whole_run) {
-  const std::string scenes = kScenes + "cull " + kScenes + "merge";  // three scenes
+  const std::string scenes = kScenes + "cull " + kScenes + "merge";  // five scenes
   std::string shards;
   for (const char* i : {"1", "2"}) {
     const std::string json = at(std::string(i) + ".json");
@@ -65,7 +65,7 @@ TEST_F(CheckInCi, shards_come_to_the_whole_run) {
   const Outcome merged = plumb("report merge" + shards + " -o " + at("all.json") + " --junit " + at("j.xml") +
                                " --markdown " + at("m.md"));
   EXPECT_EQ(merged.code, 0) << merged.text;
-  EXPECT_TRUE(merged.says("3 scenes"));
+  EXPECT_TRUE(merged.says("5 scenes"));
   const Outcome diff = plumb("report diff " + at("whole.json") + " " + at("all.json") + " --slower 1000000");
   EXPECT_EQ(diff.code, 0);
   EXPECT_EQ(diff.text, "nothing has changed\n");

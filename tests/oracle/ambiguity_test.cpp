@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/capture.h"
+#include "reference/oracle/oracle.h"
 #include "scene/scene.h"
 
 namespace plumbline::math {
@@ -68,6 +69,20 @@ TEST(AmbiguousByEdges, TakesTheLargerDeltaOfTwoTrianglesThatShareASide) {
   EXPECT_GT(delta(flat_scene({far})), 2 * delta(near));
   const double without_the_side = 2 * delta(near) * (40 + 30);
   EXPECT_NEAR(predicted(both) - predicted(flat_scene({far})), without_the_side, 0.01 * without_the_side);
+}
+
+// A surface in the far plane is open wherever it covers, before or behind a winner that leaves no depth.
+TEST(AmbiguousByDepth, CountsCutsOfWhatComesAfterAWinnerThatLeavesNoDepth) {
+  constexpr std::array<glm::vec2, 3> kWhole = {glm::vec2(-1, -1), {200, -1}, {-1, 200}};
+  Scene scene = flat_scene({kWhole}, 0.25f);
+  const Scene far = flat_scene({kWhole}, std::nextafter(1.0f, 2.0f));
+  scene.meshes.push_back(far.meshes[0]);
+  scene.draws.push_back(far.draws[0]);
+  scene.draws[1].mesh = 1;
+  for (Draw& draw : scene.draws) draw.depth_range = {0, 0.5f};
+  EXPECT_LT(legal_by_boxes(scene, {}).predicted_ambiguous, 64) << "the winner's depth hides it";
+  scene.draws[0].merge.depth_mask = false;
+  EXPECT_NEAR(legal_by_boxes(scene, {}).predicted_ambiguous, 64 * 64, 64);
 }
 
 TEST(AmbiguousByEdges, CountsWhatComesAfterAWinnerThatLeavesTheDepthAsItIs) {

@@ -22,13 +22,26 @@ bool reset(std::optional<T>& state) {
   return std::exchange(state, std::nullopt).has_value();
 }
 
-template <class ResetDraw>
-Change of_draws(ResetDraw reset_draw) {
-  return [reset_draw](Scene& scene) {
+// Changes each of the scene's `items`: its draws, for instance.
+template <auto items, class ResetItem>
+Change of_each(ResetItem reset_item) {
+  return [reset_item](Scene& scene) {
     bool changed = false;
-    for (Draw& draw : scene.draws) changed |= reset_draw(draw);
+    for (auto& item : scene.*items) changed |= reset_item(item);
     return changed;
   };
+}
+template <class ResetDraw>
+Change of_draws(ResetDraw reset_draw) {
+  return of_each<&Scene::draws>(reset_draw);
+}
+template <class ResetLight>
+Change of_lights(ResetLight reset_light) {
+  return of_each<&Scene::lights>(reset_light);
+}
+template <class ResetSampler>
+Change of_samplers(ResetSampler reset_sampler) {
+  return of_each<&Scene::textures>([reset_sampler](Texture& texture) { return reset_sampler(texture.sampler); });
 }
 template <class ResetMaterial>
 Change of_materials(ResetMaterial reset_material) {
@@ -38,19 +51,16 @@ Change of_materials(ResetMaterial reset_material) {
   });
 }
 
-template <class ResetSampler>
-Change of_samplers(ResetSampler reset_sampler) {
-  return [reset_sampler](Scene& scene) {
-    bool changed = false;
-    for (Texture& texture : scene.textures) changed |= reset_sampler(texture.sampler);
-    return changed;
-  };
-}
-
 MinFilter without_levels(MinFilter filter) {
   using enum MinFilter;
   if (!mipmaps(filter)) return filter;
   return filter == nearest_mipmap_nearest || filter == nearest_mipmap_linear ? nearest : linear;
+}
+MinFilter minified_as(MagFilter filter) {
+  return filter == MagFilter::nearest ? MinFilter::nearest : MinFilter::linear;
+}
+MagFilter magnified_as(MinFilter filter) {
+  return without_levels(filter) == MinFilter::nearest ? MagFilter::nearest : MagFilter::linear;
 }
 
 bool reset_equation(Draw& draw) {
@@ -62,14 +72,6 @@ bool reset_equation(Draw& draw) {
 // Fragments are lit with `change`; of draws that are lit at their vertices, plumb list faults has the fault.
 Change of_lit_fragments(std::function<bool(Scene&)> change) {
   return [change](Scene& scene) { return std::ranges::any_of(scene.draws, is_lit_per_fragment) && change(scene); };
-}
-template <class ResetLight>
-Change of_lights(ResetLight reset_light) {
-  return [reset_light](Scene& scene) {
-    bool changed = false;
-    for (Light& light : scene.lights) changed |= reset_light(light);
-    return changed;
-  };
 }
 
 bool reset_ambient(Scene& scene) {
@@ -117,6 +119,58 @@ constexpr auto kWraps = [](Wrap from) {
   });
 };
 
+// Scissor box of which width and height are taken for its right and its upper side.
+bool end_at_size(Draw& d) {
+  if (!d.scissor) return false;
+  const bool is_narrower = reset(d.scissor->width, std::max(d.scissor->width - d.scissor->x, 0));
+  return reset(d.scissor->height, std::max(d.scissor->height - d.scissor->y, 0)) || is_narrower;
+}
+
+bool scissor_from_other_side(Scene& scene) {
+  return of_draws([height = scene.frame.height](Draw& d) {
+    return d.scissor && reset(d.scissor->y, std::max(height - d.scissor->y - d.scissor->height, 0));
+  })(scene);
+}
+
+template <class T>
+bool is_set(const std::optional<T>& state) {
+  return state.has_value();
+}
+bool is_set(const PolygonOffset& offset) { return offset != PolygonOffset(); }
+bool is_set(Cull cull) { return cull != Cull::none; }
+bool is_set(DepthFunc func) { return func != DepthFunc::less; }
+bool is_set(const DepthRange& range) { return range != DepthRange(); }
+bool is_set(bool writes_depth) { return !writes_depth; }
+bool is_set(const glm::bvec4& written) { return written != glm::bvec4(true); }
+
+// A state that a draw sets, of(draw), is that of later draws too, until one sets another.
+template <class Of>
+Change stays(Of of) {
+  return [of](Scene& scene) {
+    bool changed = false;
+    for (std::size_t i = 1; i < scene.draws.size(); ++i) {
+      auto &before = of(scene.draws[i - 1]), &here = of(scene.draws[i]);
+      if (is_set(here) || !is_set(before)) continue;
+      here = before;
+      changed = true;
+    }
+    return changed;
+  };
+}
+
+bool texture_stays(Scene& scene) {
+  Scene stayed = scene;
+  if (!stays([](Draw & d) -> auto& { return d.texture; })(stayed)) return false;
+  bool changed = false;
+  for (std::size_t i = 0; i < scene.draws.size(); ++i) {
+    Draw& draw = scene.draws[i];
+    if (draw.texture || scene.meshes[draw.mesh].texcoords.empty() || !is_filled(draw)) continue;
+    draw.texture = stayed.draws[i].texture;
+    changed = changed || draw.texture;
+  }
+  return changed;
+}
+
 bool swap_texels_red_and_blue(Scene& scene) {
   bool changed = false;
   for (Texture& texture : scene.textures) {
@@ -140,6 +194,10 @@ struct MisreadState {
 std::vector<MisreadState> all_states() {
   const glm::vec4 black(0, 0, 0, 1);
   return {
+      {"matrices", "depth_range_ignored", "depths are mapped to [0, 1], whatever the depth range",
+       of_draws([](Draw& d) { return reset(d.depth_range, DepthRange()); })},
+      {"matrices", "depth_range_stays", "a draw without a depth range has that of the draw before",
+       stays([](Draw & d) -> auto& { return d.depth_range; })},
       {"matrices", "transforms_ignored", "draws are not moved, turned or scaled",
        of_draws([](Draw& d) { return !std::exchange(d.transforms, {}).empty(); })},
       {"light", "lighting_ignored", "draws are not lit", of_draws([](Draw& d) { return reset(d.lit, false); })},
@@ -148,6 +206,11 @@ std::vector<MisreadState> all_states() {
       {"light", "ambient_ignored", "no ambient light is added", reset_ambient},
       {"light", "ambient_without_material", "ambient light is not multiplied by the material's ambient colour",
        of_materials([](Material& m) { return reset(m.ambient, glm::vec4(1, 1, 1, m.ambient.a)); })},
+      {"light", "colors_ignored", "meshes' colours are not used: the material's diffuse colour is",
+       of_each<&Scene::meshes>([](Mesh& m) { return !std::exchange(m.colors, {}).empty(); })},
+      {"light", "point_as_direction", "a point light's position is taken for the direction to the light",
+       of_lights(
+           [](Light& l) { return !l.spot && l.vector != glm::dvec3(0) && reset(l.kind, Light::Kind::directional); })},
       {"light", "specular_ignored", "there are no highlights",
        of_materials([=](Material& m) { return reset(m.specular, black); })},
       {"light", "shininess_doubled", "highlights have twice their shininess", shines_by(2)},
@@ -163,6 +226,8 @@ std::vector<MisreadState> all_states() {
       {"clip", "depth_clamp_ignored", "near and far planes cut, though depths are to be clamped",
        [](Scene& s) { return reset(s.depth_clamp, false); }},
       {"window", "cull_ignored", "no face is culled", of_draws([](Draw& d) { return reset(d.cull, Cull::none); })},
+      {"window", "cull_stays", "a draw that culls no face culls as the draw before",
+       stays([](Draw & d) -> auto& { return d.cull; })},
       {"window", "polygon_mode_ignored", "triangles are filled, whatever their mode", of_draws([](Draw& d) {
          const bool front = reset(d.front_mode, PolygonMode::fill);
          return reset(d.back_mode, PolygonMode::fill) || front;
@@ -172,14 +237,38 @@ std::vector<MisreadState> all_states() {
       {"window", "point_size_ignored", "points are one pixel large",
        of_draws([](Draw& d) { return reset(d.point_size, 1); })},
       {"coverage", "scissor_ignored", "scissor boxes hide nothing", of_draws([](Draw& d) { return reset(d.scissor); })},
+      {"coverage", "scissor_by_corners", "a scissor box's width and height are taken for its right and upper side",
+       of_draws(end_at_size)},
+      {"coverage", "scissor_from_other_side", "scissor boxes are counted from the other side of the frame",
+       scissor_from_other_side},
+      {"coverage", "scissor_stays", "a draw without a scissor box has that of the draw before",
+       stays([](Draw & d) -> auto& { return d.scissor; })},
       {"depth", "polygon_offset_ignored", "depths are not offset",
        of_draws([](Draw& d) { return reset(d.polygon_offset, PolygonOffset()); })},
+      {"depth", "offset_without_units", "depths are offset by their slope alone",
+       of_draws([](Draw& d) { return reset(d.polygon_offset.units, 0.0f); })},
+      {"depth", "polygon_offset_stays", "a draw without a polygon offset has that of the draw before",
+       stays([](Draw & d) -> auto& { return d.polygon_offset; })},
       {"texture", "filters_ignored", "the nearest texel is taken, whatever the filters", of_samplers([](Sampler& s) {
          const bool magnified = reset(s.mag, MagFilter::nearest);
          return reset(s.min, MinFilter::nearest) || magnified;
        })},
       {"texture", "levels_ignored", "all texels are of the largest level",
        of_samplers([](Sampler& s) { return reset(s.min, without_levels(s.min)); })},
+      {"texture", "minified_as_magnified", "minified textures are filtered as magnified ones",
+       of_samplers([](Sampler& s) { return reset(s.min, minified_as(s.mag)); })},
+      {"texture", "magnified_as_minified", "magnified textures are filtered as minified ones",
+       of_samplers([](Sampler& s) { return reset(s.mag, magnified_as(s.min)); })},
+      {"texture", "levels_too_coarse", "textures are taken a level too coarse",
+       of_samplers([](Sampler& s) { return reset(s.lod_bias, std::min(s.lod_bias + 1, 16.0f)); })},
+      {"texture", "levels_too_fine", "textures are taken a level too fine",
+       of_samplers([](Sampler& s) { return reset(s.lod_bias, std::max(s.lod_bias - 1, -16.0f)); })},
+      {"texture", "wrap_of_s", "textures wrap in t as in s",
+       of_samplers([](Sampler& s) { return reset(s.wrap_t, s.wrap_s); })},
+      {"texture", "wraps_swapped", "textures wrap in t as in s, and the other way round", of_samplers([](Sampler& s) {
+         std::swap(s.wrap_s, s.wrap_t);
+         return s.wrap_s != s.wrap_t;
+       })},
       {"texture", "repeat_for_clamp", "textures are repeated, though their edges are to be drawn out",
        kWraps<Wrap::repeat>(Wrap::clamp_to_edge)},
       {"texture", "repeat_for_mirror", "textures are repeated as they are, though every other is to be mirrored",
@@ -192,7 +281,13 @@ std::vector<MisreadState> all_states() {
       {"shade", "local_viewer_ignored", "highlights are seen from infinitely far away, not from the eye",
        of_lit_fragments([](Scene& s) { return reset(s.light_model.local_viewer, false); })},
       {"shade", "texture_ignored", "textures are left out", of_draws([](Draw& d) { return reset(d.texture); })},
+      {"shade", "texture_stays", "a draw without a texture has that of the draw before", texture_stays},
       {"shade", "fog_ignored", "there is no fog", of_draws([](Draw& d) { return reset(d.fog); })},
+      {"shade", "fog_start_ignored", "linear fog begins at the eye", of_draws([](Draw& d) {
+         return d.fog && d.fog->mode == Fog::Mode::linear && d.fog->end != 0 && reset(d.fog->start, 0.0f);
+       })},
+      {"shade", "fog_stays", "a draw without fog has that of the draw before",
+       stays([](Draw & d) -> auto& { return d.fog; })},
       {"shade", "fog_exponents_swapped", "fog by exp is by exp2, and the other way round", of_draws(kSwapsExponents)},
       {"visibility", "depth_func_ignored", "all depth tests are less",
        of_draws([](Draw& d) { return reset(d.depth_func, DepthFunc::less); })},
@@ -200,12 +295,26 @@ std::vector<MisreadState> all_states() {
        of_draws([](Draw& d) { return reset(d.depth_func, DepthFunc::always); })},
       {"visibility", "depth_mask_ignored", "depths are written, though they are masked",
        of_draws([](Draw& d) { return reset(d.merge.depth_mask, true); })},
+      {"visibility", "depth_func_stays", "a draw without a depth function has that of the draw before",
+       stays([](Draw & d) -> auto& { return d.depth_func; })},
+      {"visibility", "depth_mask_stays", "after a draw that leaves no depths, none does",
+       stays([](Draw & d) -> auto& { return d.merge.depth_mask; })},
+      {"visibility", "alpha_test_stays", "a draw without an alpha test has that of the draw before",
+       stays([](Draw & d) -> auto& { return d.alpha_test; })},
       {"visibility", "clear_depth_ignored", "the depth is cleared to 1",
        [](Scene& s) { return reset(s.frame.clear_depth, 1.0); }},
       {"visibility", "stencil_ignored", "stencil values hide nothing",
        of_draws([](Draw& d) { return reset(d.stencil); })},
+      {"visibility", "stencil_stays", "a draw without a stencil test has that of the draw before",
+       stays([](Draw & d) -> auto& { return d.stencil; })},
       {"merge", "blend_ignored", "colours replace what is stored, and are not blended with it",
        of_draws([](Draw& d) { return reset(d.merge.blend); })},
+      {"merge", "blend_stays", "a draw that does not blend blends as the draw before",
+       stays([](Draw & d) -> auto& { return d.merge.blend; })},
+      {"merge", "logic_op_stays", "a draw without a logic op has that of the draw before",
+       stays([](Draw & d) -> auto& { return d.merge.logic_op; })},
+      {"merge", "color_mask_stays", "a draw that writes all channels writes those of the draw before",
+       stays([](Draw & d) -> auto& { return d.merge.color_mask; })},
       {"merge", "blend_factors_ignored", "blending is by the source's alpha, whatever the factors",
        of_draws(kBlendsByAlpha)},
       {"merge", "source_factor_of_one", "blending adds the source's colour as it is, whatever its factor",
