@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -61,20 +62,6 @@ Rest without(const LinesOfPixels& lines, const Planes& planes) {
 
 int distance(glm::ivec2 a, glm::ivec2 b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)); }
 
-// Distance of a pixel from the one of `pixels` in its column, else from the nearest; without `pixels`, from the line's
-// end points.
-int deviation(glm::ivec2 pixel, const std::vector<glm::ivec2>& pixels, const WindowTriangle<double>& line, int major) {
-  std::vector<glm::ivec2> ends;
-  for (std::size_t i = 0; pixels.empty() && i < 2; ++i)
-    ends.emplace_back(whole_in_range(line.v[i].p_win.x), whole_in_range(line.v[i].p_win.y));
-  int nearest = std::numeric_limits<int>::max();
-  for (const glm::ivec2 p : pixels.empty() ? ends : pixels) {
-    if (p[major] == pixel[major]) return distance(p, pixel);
-    nearest = std::min(nearest, distance(p, pixel));
-  }
-  return nearest;
-}
-
 // What a line covers of one column (y-major: row).
 struct Column {
   int low, high, count;
@@ -87,6 +74,26 @@ std::map<int, Column> columns_of(const std::vector<glm::ivec2>& pixels, int majo
     c = {std::min(c.low, at), std::max(c.high, at), c.count + 1};
   }
   return columns;
+}
+
+// Distance of a pixel from the line's pixels, where they are given by columns; without columns, from its end points.
+int deviation(glm::ivec2 pixel, const std::map<int, Column>& columns, const WindowTriangle<double>& line, int major) {
+  int nearest = std::numeric_limits<int>::max();
+  for (std::size_t i = 0; columns.empty() && i < 2; ++i) {
+    const glm::ivec2 end(whole_in_range(line.v[i].p_win.x), whole_in_range(line.v[i].p_win.y));
+    nearest = std::min(nearest, distance(end, pixel));
+  }
+  const int place = pixel[major], across = pixel[1 - major];
+  // A column farther than the nearest pixel so far holds no nearer one.
+  const auto is_near = [&](int other) { return std::abs(other - place) < nearest; };
+  const auto take = [&](const auto& column) {
+    const int beside = std::max({column.second.low - across, across - column.second.high, 0});
+    nearest = std::min(nearest, std::max(std::abs(column.first - place), beside));
+  };
+  const auto from = columns.lower_bound(place);
+  for (auto at = from; at != columns.end() && is_near(at->first); ++at) take(*at);
+  for (auto at = std::make_reverse_iterator(from); at != columns.rend() && is_near(at->first); ++at) take(*at);
+  return nearest;
 }
 
 int major_axis(glm::dvec2 d) { return std::abs(d.x) >= std::abs(d.y) ? 0 : 1; }
@@ -107,38 +114,59 @@ Box box_of(const DrawIndex& draws, std::uint32_t primitive, glm::ivec2 extent) {
   return out;
 }
 
-// `box`: the pixels that the line may cover.
-void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const Line& theirs, const Box& box,
+// What both sides have in common of a line.
+struct LineShape {
+  std::uint32_t primitive;
+  const WindowTriangle<double>* window;  // the candidate's
+  Box box;                               // the pixels that the line may cover
+  int major = 0, width = 1;
+  bool axis_open = false;  // the line is wide, and rounding decides along which axis
+
+  Place at(glm::ivec2 p, const char* field) const {
+    return {p.x, p.y, static_cast<std::int64_t>(primitive), field, true};
+  }
+};
+
+// Holds the columns of one side to those of the other, and to the line's width.
+void compare_columns(Meter& meter, const LineShape& line, const Line& of, const std::map<int, Column>& columns,
+                     const std::map<int, Column>& others, double factor) {
+  const auto off_by = [&](glm::ivec2 p, int off) { meter.value(off, factor, line.at(p, "pixels off"), 0, off); };
+  for (const glm::ivec2 p : of.pixels) {
+    if (others.contains(p[line.major]) && !line.axis_open) continue;
+    const int open = line.axis_open ? line.width : 0;
+    off_by(p, std::max(deviation(p, others, *line.window, line.major) - open, 0));
+  }
+  if (line.axis_open) return;
+  const int across = 1 - line.major;
+  for (const auto& [place, column] : columns) {
+    const glm::ivec2 p = line.major == 0 ? glm::ivec2(place, column.low) : glm::ivec2(column.low, place);
+    const bool cut = column.low == line.box.low[across] || column.high == line.box.high[across] - 1;
+    const bool whole = column.high - column.low + 1 == column.count && (cut || column.count == line.width);
+    meter.value(whole && column.count <= line.width ? 0 : kInfinite, 0, line.at(p, "width in a column"), line.width,
+                column.count);
+    const auto same = others.find(place);
+    if (same == others.end()) continue;
+    off_by(p, std::max(std::abs(column.low - same->second.low), std::abs(column.high - same->second.high)));
+  }
+}
+
+void compare_line(Meter& meter, std::uint32_t primitive, const Line& candidate, const Line& reference, const Box& box,
                   double factor) {
-  const auto at = [&](glm::ivec2 p, const char* field) {
-    return Place{p.x, p.y, static_cast<std::int64_t>(primitive), field, true};
-  };
-  if (mine.window == nullptr || theirs.window == nullptr) {
-    return meter.value(kInfinite, 0, at({-1, -1}, mine.window == nullptr ? "line lacking" : "line extra"), 0, 0);
+  LineShape line{primitive, candidate.window, box};
+  if (candidate.window == nullptr || reference.window == nullptr) {
+    return meter.value(kInfinite, 0, line.at({-1, -1}, candidate.window == nullptr ? "line lacking" : "line extra"), 0,
+                       0);
   }
-  const auto& [a, b, last] = mine.window->v;
-  const int major = major_axis(b.snapped - a.snapped), width = static_cast<int>(mine.window->width);
-  const bool axis_open = width > 1 && major != major_axis(glm::dvec2(b.p_win) - glm::dvec2(a.p_win));
-  const auto columns = columns_of(mine.pixels, major), their_columns = columns_of(theirs.pixels, major);
-  for (const glm::ivec2 p : theirs.pixels) {
-    if (columns.contains(p[major]) && !axis_open) continue;
-    const int off = std::max(deviation(p, mine.pixels, *mine.window, major) - (axis_open ? width : 0), 0);
-    meter.value(off, factor, at(p, "pixels off"), 0, off);
-  }
-  for (const auto& [place, column] : their_columns) {
-    if (axis_open) break;
-    const glm::ivec2 p = major == 0 ? glm::ivec2(place, column.low) : glm::ivec2(column.low, place);
-    const bool cut = column.low == box.low[1 - major] || column.high == box.high[1 - major] - 1;
-    const auto same = columns.find(place);
-    const bool whole = column.high - column.low + 1 == column.count && (cut || column.count == width);
-    meter.value(whole && column.count <= width ? 0 : kInfinite, 0, at(p, "width in a column"), width, column.count);
-    if (same == columns.end()) continue;
-    const int off = std::max(std::abs(column.low - same->second.low), std::abs(column.high - same->second.high));
-    meter.value(off, factor, at(p, "pixels off"), 0, off);
-  }
-  const auto mine_count = static_cast<double>(columns.size()), count = static_cast<double>(their_columns.size());
-  if (!axis_open) meter.value(std::abs(mine_count - count), factor, at({-1, -1}, "number"), mine_count, count);
-  if (mine.pixels != theirs.pixels) meter.ambiguous();
+  const auto& [a, b, last] = candidate.window->v;
+  line.major = major_axis(b.snapped - a.snapped);
+  line.width = static_cast<int>(candidate.window->width);
+  line.axis_open = line.width > 1 && line.major != major_axis(glm::dvec2(b.p_win) - glm::dvec2(a.p_win));
+  const auto columns = columns_of(candidate.pixels, line.major), others = columns_of(reference.pixels, line.major);
+  compare_columns(meter, line, reference, others, columns, factor);
+  compare_columns(meter, line, candidate, columns, others, factor);
+  const auto count = static_cast<double>(columns.size()), wanted = static_cast<double>(others.size());
+  if (!line.axis_open) meter.value(std::abs(count - wanted), factor, line.at({-1, -1}, "number"), count, wanted);
+  if (candidate.pixels != reference.pixels) meter.ambiguous();
 }
 
 }  // namespace

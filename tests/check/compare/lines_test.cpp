@@ -118,6 +118,32 @@ TEST(CheckLines, columns_of_wide_lines_are_whole) {
   EXPECT_TRUE(fails(compare_covered_lines({}, drawn({diagonal}, {columns}), drawn({diagonal}, {rows}), 1)));
 }
 
+TEST(CheckLines, the_candidates_pixels_are_held_to_the_same) {
+  const auto of = [](const WindowTriangle<double>& line, const Pixels& candidate, const Pixels& reference) {
+    return compare_covered_lines({}, drawn({line}, {candidate}), drawn({line}, {reference}), 1);
+  };
+  EXPECT_TRUE(passes(of(kFlat, {{2, 3}, {3, 4}, {4, 4}, {5, 4}}, kFlatPixels)));
+  EXPECT_TRUE(fails(of(kFlat, {{2, 3}, {3, 3}, {4, 4}, {9, 9}}, kFlatPixels))) << "one far away, as many columns";
+  EXPECT_TRUE(fails(of(kFlat, {{2, 3}, {3, 3}, {3, 4}, {4, 4}, {5, 4}}, kFlatPixels))) << "two in one column";
+  WindowTriangle<double> wide = kFlat;
+  wide.width = 3;
+  Pixels whole, torn;
+  for (const glm::ivec2 p : kFlatPixels) {
+    for (int k = 0; k < 3; ++k) whole.push_back(p + glm::ivec2(0, k));
+    torn.push_back(p), torn.push_back(p + glm::ivec2(0, 2));
+  }
+  EXPECT_TRUE(passes(of(wide, whole, whole)));
+  EXPECT_TRUE(fails(of(wide, torn, whole))) << "its columns lack their middle";
+  WindowTriangle<double> diagonal = line_of({2.5, 2.5}, {6.5, 6.5}, 1);
+  diagonal.width = 2;
+  diagonal.v[1].p_win.y += 0.001;  // along y but for snapping
+  const Pixels drawn_so = {{2, 2}, {2, 3}, {3, 3}, {3, 4}, {4, 4}, {4, 5}, {5, 5}, {5, 6}};
+  Pixels stray = drawn_so;
+  EXPECT_TRUE(passes(of(diagonal, drawn_so, drawn_so)));
+  stray.emplace_back(12, 2);
+  EXPECT_TRUE(fails(of(diagonal, stray, drawn_so))) << "whichever axis it goes by";
+}
+
 TEST(CheckLines, edges_of_one_triangle_are_told_apart) {
   const WindowTriangle<double> second = line_of({6.5, 4.5}, {6.5, 8.5}, 1);
   const Pixels upright = {{6, 4}, {6, 5}, {6, 6}, {6, 7}};
