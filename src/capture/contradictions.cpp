@@ -130,6 +130,35 @@ void check_coverage(const Capture& c, Lines& out) {
          "coverage.y", "have another number of fragments than planes.count says", "planes.count", out);
 }
 
+// planes.shaded is the colour of the winner's fragment: shade.color, where the winner has one fragment at the pixel.
+void check_shaded(const Capture& c, Lines& out) {
+  constexpr float kApart = 0x1p-20f;  // a few roundings of float, of numbers up to 1
+  const Planes& p = c.planes;
+  const Records<double>& r = c.records;
+  if (p.shaded.empty() || p.id.empty() || r.shaded.empty() || r.shaded.size() != r.covered.size()) return;
+  Plane<std::uint32_t> fragments(c.width, c.height);
+  Plane<glm::vec4> color(c.width, c.height);
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    const Covered& f = r.covered[i];
+    if (f.triangle >= r.triangles.size()) continue;
+    if (static_cast<std::int64_t>(r.triangles[f.triangle].primitive) != p.id(f.x, f.y)) continue;
+    ++fragments(f.x, f.y);
+    color(f.x, f.y) = glm::vec4(r.shaded[i].color);
+  }
+  const auto differs = [&](const glm::vec4& shaded, int x, int y) {
+    const glm::vec4& of_winner = color(x, y);
+    bool out_of = false;
+    for (int i = 0; i < 4; ++i) {
+      const bool alike = shaded[i] == of_winner[i] || (std::isnan(shaded[i]) && std::isnan(of_winner[i])) ||
+                         std::abs(shaded[i] - of_winner[i]) <= kApart * std::max(1.0f, std::abs(of_winner[i]));
+      out_of = out_of || !alike;
+    }
+    return fragments(x, y) == 1 && out_of;
+  };
+  report(apart(p.shaded, c.width, c.height, differs), "planes.shaded",
+         "differ from shade.color of the winner's fragment", "coverage.y", out);
+}
+
 double relative(const Vec4<double>& got, const Vec4<double>& expected) {
   double apart = 0, size = 0;
   for (int i = 0; i < 4; ++i) {
@@ -144,20 +173,25 @@ void check_matrices(const Capture& c, Lines& out) {
   constexpr double kApart = 1e-3;  // far beyond float's rounding, unless everything cancels
   const Records<double>& r = c.records;
   if (r.matrices.empty() || r.vertices.empty()) return;
-  std::size_t wrong = 0, transposed = 0;
+  const auto fits = [&](const Vertex<double>& v, const Matrices<double>& m) {
+    return relative(v.p_clip, m.projection * v.p_eye) <= kApart;
+  };
+  std::size_t wrong = 0, draw = 0;  // draw: of the vertex before, most often of this one, too
   for (const Vertex<double>& v : r.vertices) {
-    double as_is = 1, turned = 1;
-    for (const Matrices<double>& m : r.matrices) {
-      as_is = std::min(as_is, relative(v.p_clip, m.projection * v.p_eye));
-      turned = std::min(turned, relative(v.p_clip, glm::transpose(m.projection) * v.p_eye));
-    }
-    wrong += as_is > kApart;
-    transposed += turned <= kApart;
+    if (fits(v, r.matrices[draw])) continue;
+    const auto found = std::ranges::find_if(r.matrices, [&](const Matrices<double>& m) { return fits(v, m); });
+    if (found == r.matrices.end()) ++wrong;
+    if (found != r.matrices.end()) draw = static_cast<std::size_t>(found - r.matrices.begin());
   }
   if (wrong == 0) return;
-  out.push_back(fmt::format(
-      "vertex.p_clip: {} of {} are not matrices.projection * vertex.p_eye{}", wrong, r.vertices.size(),
-      transposed == r.vertices.size() ? "; all are, if it is transposed: matrices are column by column" : ""));
+  const bool is_transposed = std::ranges::all_of(r.vertices, [&](const Vertex<double>& v) {
+    return std::ranges::any_of(r.matrices, [&](const Matrices<double>& m) {
+      return relative(v.p_clip, glm::transpose(m.projection) * v.p_eye) <= kApart;
+    });
+  });
+  out.push_back(fmt::format("vertex.p_clip: {} of {} are not matrices.projection * vertex.p_eye{}", wrong,
+                            r.vertices.size(),
+                            is_transposed ? "; all are, if it is transposed: matrices are column by column" : ""));
 }
 
 }  // namespace
@@ -175,6 +209,7 @@ std::vector<std::string> contradictions(const Capture& capture) {
   check_window(capture, out);
   check_coverage(capture, out);
   check_winners(capture, out);
+  check_shaded(capture, out);
   check_depth(capture, out);
   check_color(capture, out);
   return out;

@@ -10,8 +10,8 @@
 namespace plumbline {
 
 /// Lines for people, each with the array, the numbers, and what they probably are: depths still in [-1,1], codes where
-/// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn, a picture without
-/// triangles. Empty: none found.
+/// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn, colours that
+/// are no winner's, a picture without triangles. Empty: none found.
 std::vector<std::string> contradictions(const Capture& capture);
 /// Contradictions of one stage. window: no triangle, but pixels drawn in planes.id, planes.count or planes.color.
 /// visibility: planes.id against planes.count and planes.color. Other stages: none.

@@ -102,6 +102,14 @@ TEST_F(Contradictions, APictureWithoutTriangles) {
   EXPECT_TRUE(contradictions_of(c, Stage::visibility).empty());
 }
 
+TEST_F(Contradictions, ColoursThatAreNotTheWinnersFragments) {
+  EXPECT_HAS(after([](Capture& c) {
+               for (glm::vec4& color : c.planes.shaded.values()) color = 1.02f * color + 0.013f;
+             }),
+             "differ from shade.color of the winner's fragment");
+  EXPECT_HAS(after([](Capture& c) { turn_over(c.planes.shaded); }), "; none, if its rows are turned over");
+}
+
 // Judges look the primitive of a fragment up by its triangle, which is not there.
 TEST_F(Contradictions, AFragmentBesideNoTriangleIsRefusedWhereItIsRead) {
   const TemporaryPath folder(temporary_files(), "contradictions-", TemporaryPath::Kind::folder);
