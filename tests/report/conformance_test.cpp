@@ -12,7 +12,9 @@ using check::Outcome;
 using check::SceneVerdict;
 
 Comparison row(const char* judge, Kind kind, Stage stage, Outcome outcome, std::string note = "") {
-  return check::not_judged("", {judge, kind}, stage, outcome, std::move(note));
+  Comparison out = check::not_judged("", {judge, kind}, stage, outcome, std::move(note));
+  out.measurement.unit = "u";
+  return out;
 }
 SceneVerdict verdict(std::string scene, std::vector<Comparison> rows) {
   return {std::move(scene), "", std::move(rows)};

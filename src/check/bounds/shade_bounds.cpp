@@ -57,29 +57,35 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, co
 Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
                          const FragmentFours& errors, const Roundings& roundings) {
   Vec4<double> color = attributes.color, error = errors.color;
+  Vec4<double> low = color, high = color;  // of a colour that is unknown here: what light makes of a fragment
   const bool per_fragment = is_lit_per_fragment(draw), summed = draw.lit && scene.light_model.separate_specular;
-  if (per_fragment) error = light_error(scene, draw, false, attributes, errors, roundings);
+  if (per_fragment) {
+    error = light_error(scene, draw, false, attributes, errors, roundings);
+    low = Vec4<double>(0), high = Vec4<double>(1);
+  }
   if (draw.texture) {
     const TextureFormat format = scene.textures.at(draw.texture->texture).format;
     const auto after = [&](const Vec4<double>& before) {
       return environ_error(format, *draw.texture, before, error, attributes.texel, errors.texel, roundings);
     };
-    const Environed e = after(per_fragment ? Vec4<double>(0) : color);
-    // The lit colour is unknown here: the error is largest at 0 or at 1.
-    error = per_fragment ? glm::max(e.error, after(Vec4<double>(1)).error) : e.error;
-    color = e.color;
+    const Environed dark = after(low), bright = after(high);  // the error is largest at one of them
+    error = glm::max(dark.error, bright.error);
+    low = glm::min(dark.color, bright.color), high = glm::max(dark.color, bright.color);
+    color = dark.color;
   }
   if (summed) {
     const Vec4<double> apart =
         per_fragment ? light_error(scene, draw, true, attributes, errors, roundings) : errors[Varying::secondary];
     error += Vec4<double>(Vec3<double>(apart) + roundings(1), 0);
+    for (int c = 0; c < 3; ++c) high[c] = high[c] > 1 ? high[c] + 1 : 1;  // a sum of up to 1 is clamped to it
   }
   if (draw.fog) {
     const auto [f, df] =
         math::fog_factor(*draw.fog, {attributes[Varying::position].z, errors[Varying::position].z}, roundings);
     for (int c = 0; c < 3; ++c) {
       const double of_fog = draw.fog->color[c];
-      if (per_fragment || summed) color[c] = of_fog > 0.5 ? 0 : 1;  // as far from the fog's as light can be
+      if (per_fragment || summed)  // as far from the fog's as it can be
+        color[c] = std::abs(low[c] - of_fog) > std::abs(high[c] - of_fog) ? low[c] : high[c];
       const double magnitude = f * std::abs(color[c]) + (1 - f) * of_fog;
       error[c] = df * (std::abs(color[c] - of_fog) + error[c]) + f * error[c] + roundings(magnitude);
       color[c] = f * color[c] + (1 - f) * of_fog;

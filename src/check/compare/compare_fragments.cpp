@@ -9,6 +9,7 @@
 #include "check/bounds/bounds.h"
 #include "check/bounds/mean_bounds.h"
 #include "check/bounds/shade_bounds.h"
+#include "check/bounds/texture_bounds.h"
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
 #include "scene/draw_index.h"
@@ -207,33 +208,40 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
       });
 }
 
+namespace {
+
+// Whether shaded colours may lie outside [0, 1]: texels of a float format do.
+bool may_exceed_one(const Scene& scene, const Draw& draw) {
+  return draw.texture && largest_texel(scene.textures.at(draw.texture->texture)) > 1;
+}
+
+}  // namespace
+
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, double copies) {
   const DrawIndex draws(scene);
-  return each_fragment("colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(),
-                       [&](Meter& meter, std::size_t i) {
-                         const Covered& c = candidate.covered[i];
-                         const Vec4<double>&a = candidate.shaded[i].color, &b = reference.shaded[i].color;
-                         const Place place{c.x, c.y, c.triangle, "color"};
-                         if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
-                         const Draw* draw = draws.draw(candidate.triangles[c.triangle].primitive);
-                         if (draw == nullptr || is_plain(scene, *draw))
-                           return add(meter, a, b, Vec4<double>(u), 0, place, copies * u * glm::abs(b));
-                         const Vec4<double> bound = shade_error(scene, *draw, fours_of(candidate, i), {}, {1});
-                         if (!std::isfinite(bound.x)) {  // a light may come or go
-                           meter.ambiguous();
-                           for (int k = 0; k < 4; ++k)
-                             meter.value(a[k] >= 0 && a[k] <= 1 ? 0 : kInfinite, 0, place, a[k], b[k]);
-                           return;
-                         }
-                         for (int k = 0; k < 4; ++k) {
-                           if (bound[k] == 0) {
-                             meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k], copies * std::abs(b[k]));
-                           } else {
-                             meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
-                           }
-                         }
-                       });
+  return each_fragment(
+      "colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
+        const Covered& c = candidate.covered[i];
+        const Vec4<double>&a = candidate.shaded[i].color, &b = reference.shaded[i].color;
+        const Place place{c.x, c.y, c.triangle, "color"};
+        if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
+        const Draw* draw = draws.draw(candidate.triangles[c.triangle].primitive);
+        if (draw == nullptr || is_plain(scene, *draw))
+          return add(meter, a, b, Vec4<double>(u), 0, place, copies * u * glm::abs(b));
+        const Vec4<double> bound = shade_error(scene, *draw, fours_of(candidate, i), {}, {1});
+        for (int k = 0; k < 4; ++k) {
+          if (!std::isfinite(bound[k])) {  // a light may come or go
+            meter.ambiguous();
+            const bool is_legal = std::isfinite(a[k]) && (may_exceed_one(scene, *draw) || (a[k] >= 0 && a[k] <= 1));
+            meter.value(is_legal ? 0 : kInfinite, 0, place, a[k], b[k]);
+          } else if (bound[k] == 0) {
+            meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k], copies * std::abs(b[k]));
+          } else {
+            meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
+          }
+        }
+      });
 }
 
 Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference) {

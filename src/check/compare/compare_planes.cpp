@@ -323,15 +323,16 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     for (int c = 0; c < 4; ++c) {
       const double v = a.color(x, y)[c], w = b.color(x, y)[c];
       const bool unknown = !certain || (on_clear[c] && cleared_codes(scene.frame, c) > 0);
-      if (open || !std::isfinite(bound) || (combined && unknown)) {
+      const double allowed = codes * layers + cleared_codes(scene.frame, c);
+      const bool any_code = scale > 0 && allowed >= scale;  // so many layers that no code is wrong
+      if (open || !std::isfinite(bound) || (combined && unknown) || (!combined && any_code)) {
         open_value(meter, v, place, w);
       } else if (scale > 0) {
         const double code = std::round(scale * v), code_ref = std::round(scale * w);
         if (combined) {
           meter.value(difference(code, code_ref), 0, place, code, code_ref);
         } else {
-          meter.value(difference(code, code_ref), codes * layers + cleared_codes(scene.frame, c), place, code, code_ref,
-                      std::floor(scale * bound));
+          meter.value(difference(code, code_ref), allowed, place, code, code_ref, std::floor(scale * bound));
         }
       } else {
         meter.value(difference(v, w) / u, bound / u + 4 * layers * held, place, v, w);

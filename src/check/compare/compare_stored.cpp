@@ -40,7 +40,10 @@ Pairs pairs_of(const StoredImage& a, const StoredImage& b) {
     return out;
   }
   for (const Channel& channel : a.channels) {
-    const auto other = std::ranges::find(b.channels, channel.name, &Channel::name);
+    const auto is_other = [&](const Channel& other) {
+      return other.name == channel.name && std::ranges::find(out, &other, &Pairs::value_type::second) == out.end();
+    };
+    const auto other = std::ranges::find_if(b.channels, is_other);
     if (other != b.channels.end()) out.emplace_back(&channel, &*other);
   }
   return out;

@@ -100,7 +100,8 @@ constexpr double kStepped = 4 * 1024;
 bool are_within_steps(const SceneVerdict& verdict, Stage stage) {
   if (stage != Stage::attributes && stage != Stage::texture && stage != Stage::shade) return false;
   return std::ranges::all_of(verdict.comparisons, [&](const Comparison& c) {
-    return c.stage != stage || c.outcome != Outcome::different || c.measurement.max_difference <= kStepped;
+    const bool is_stepped = c.measurement.unit == "u" && c.measurement.max_difference <= kStepped;
+    return c.stage != stage || c.outcome != Outcome::different || is_stepped;
   });
 }
 

@@ -33,6 +33,20 @@ TEST_F(BlendedPairs, EachFragmentDrawnMayDifferByTwoCodesAndAHalf) {
   EXPECT_EQ(most(2, 2), 2);
 }
 
+// 2.5 codes for each of 102 layers are all that there are: the row says that it judged nothing there.
+TEST_F(BlendedPairs, SoManyLayersThatNoCodeIsWrongLeaveTheColourOpen) {
+  for (int layer = 2; layer < 101; ++layer) {
+    capture.records.covered.push_back({0, 3, 1});
+    capture.records.drawn.push_back({true});
+  }
+  EXPECT_EQ(run(blended(), kUnchangedPlanes).ambiguous, 0u);
+  capture.records.covered.push_back({0, 3, 1});
+  capture.records.drawn.push_back({true});
+  EXPECT_EQ(run(blended(), kUnchangedPlanes).ambiguous, 1u);
+  EXPECT_TRUE(passes(run(blended(), [](Planes& p) { p.color(3, 1) = glm::vec4(1, 0, 1, 0); })));
+  EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r = static_cast<float>(kNaN); })));
+}
+
 TEST_F(BlendedPairs, InFloatByTheirColoursBoundsAlone) {
   scene.frame.color = ColorFormat::rgba32f;
   EXPECT_TRUE(passes(run(blended(), kUnchangedPlanes)));

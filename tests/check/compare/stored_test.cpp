@@ -190,6 +190,13 @@ TEST(StoredImages, ChannelsArePairedByName) {
   const StoredImage twice = image_of({{"x", 1}, {"x", 2}}), other = image_of({{"x", 1}, {"x", 3}});
   EXPECT_EQ(compare_images(twice, other, 0).back().outcome, Outcome::different);
   EXPECT_EQ(compare_images(twice, twice, 0).back().outcome, Outcome::equal);
+  // A channel is the other side's once.
+  const auto has_difference = [](const StoredImage& a, const StoredImage& b) {
+    const auto differs = [](const StoredComparison& row) { return row.outcome == Outcome::different; };
+    return std::ranges::any_of(compare_images(a, b, 0), differs);
+  };
+  EXPECT_TRUE(has_difference(image_of({{"R", 1}, {"R", 1}}), image_of({{"R", 1}, {"G", 5}})));
+  EXPECT_TRUE(has_difference(image_of({{"R", 1}, {"G", 5}}), image_of({{"R", 1}, {"R", 1}})));
 }
 
 TEST(StoredImages, TheDifferenceIsAmplified) {

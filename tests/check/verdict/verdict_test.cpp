@@ -124,8 +124,14 @@ TEST(FirstDifferent, IsTheStageThatIsWrongAloneWhereThatOfThePlanesHolds) {
 
 TEST(DiffersBySteps, UpToARoundingForEachStep) {
   const JudgeId alone("exact", Kind::per_stage);
-  const auto row = [&](Stage stage, double u) { return judged("s", alone, stage, measured(u > 0 ? 1 : 0, 0, 0, u)); };
+  const auto row = [&](Stage stage, double u) {
+    Measurement m = measured(u > 0 ? 1 : 0, 0, 0, u);
+    m.unit = "u";
+    return judged("s", alone, stage, m);
+  };
   SceneVerdict verdict;
+  verdict.comparisons = {judged("s", JudgeId("exact", Kind::legal), Stage::attributes, measured(1, 0, 0, 2))};
+  EXPECT_FALSE(differs_by_steps(verdict, Stage::attributes)) << "of twice a bound, which is no number of roundings";
   verdict.comparisons = {row(Stage::attributes, 4096), row(Stage::shade, 0), row(Stage::merge, 2)};
   EXPECT_TRUE(differs_by_steps(verdict, Stage::attributes));
   EXPECT_FALSE(differs_by_steps(verdict, Stage::shade)) << "equal";
