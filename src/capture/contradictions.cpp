@@ -130,12 +130,18 @@ void check_coverage(const Capture& c, Lines& out) {
          "coverage.y", "have another number of fragments than planes.count says", "planes.count", out);
 }
 
-// planes.shaded is the colour of the winner's fragment: shade.color, where the winner has one fragment at the pixel.
-void check_shaded(const Capture& c, Lines& out) {
+// A plane of the winner's fragment holds that fragment's record, where the winner has one fragment at the pixel. Nothing
+// is said where the fragments contradict planes.count: they are at other pixels.
+template <class Record>
+void check_plane_of_winner(const Capture& c, const Plane<glm::vec4>& plane, const std::vector<Record>& records,
+                           const char* array, const char* column, Lines& out) {
   constexpr float kApart = 0x1p-20f;  // a few roundings of float, of numbers up to 1
   const Planes& p = c.planes;
   const Records<double>& r = c.records;
-  if (p.shaded.empty() || p.id.empty() || r.shaded.empty() || r.shaded.size() != r.covered.size()) return;
+  if (plane.empty() || p.id.empty() || records.empty() || records.size() != r.covered.size()) return;
+  Lines of_coverage;
+  check_coverage(c, of_coverage);
+  if (!of_coverage.empty()) return;
   Plane<std::uint32_t> fragments(c.width, c.height);
   Plane<glm::vec4> color(c.width, c.height);
   for (std::size_t i = 0; i < r.covered.size(); ++i) {
@@ -143,20 +149,26 @@ void check_shaded(const Capture& c, Lines& out) {
     if (f.triangle >= r.triangles.size()) continue;
     if (static_cast<std::int64_t>(r.triangles[f.triangle].primitive) != p.id(f.x, f.y)) continue;
     ++fragments(f.x, f.y);
-    color(f.x, f.y) = glm::vec4(r.shaded[i].color);
+    color(f.x, f.y) = glm::vec4(records[i].color);
   }
-  const auto differs = [&](const glm::vec4& shaded, int x, int y) {
-    const glm::vec4& of_winner = color(x, y);
-    bool out_of = false;
-    for (int i = 0; i < 4; ++i) {
-      const bool alike = shaded[i] == of_winner[i] || (std::isnan(shaded[i]) && std::isnan(of_winner[i])) ||
-                         std::abs(shaded[i] - of_winner[i]) <= kApart * std::max(1.0f, std::abs(of_winner[i]));
-      out_of = out_of || !alike;
-    }
-    return fragments(x, y) == 1 && out_of;
+  const auto is_alike = [&](float v, float of_winner) {
+    return v == of_winner || (std::isnan(v) && std::isnan(of_winner)) ||
+           std::abs(v - of_winner) <= kApart * std::max(1.0f, std::abs(of_winner));
   };
-  report(apart(p.shaded, c.width, c.height, differs), "planes.shaded",
-         "differ from shade.color of the winner's fragment", "coverage.y", out);
+  const auto differs = [&](const glm::vec4& v, int x, int y) {
+    bool any = false;
+    for (int i = 0; i < 4; ++i) any = any || !is_alike(v[i], color(x, y)[i]);
+    return fragments(x, y) == 1 && any;
+  };
+  const std::string what = fmt::format("differ from {} of the winner's fragment", column);
+  report(apart(plane, c.width, c.height, differs), array, what, "coverage.y", out);
+}
+
+void check_texels(const Capture& c, Lines& out) {
+  check_plane_of_winner(c, c.planes.texel, c.records.texels, "planes.texel", "texture.color", out);
+}
+void check_shaded(const Capture& c, Lines& out) {
+  check_plane_of_winner(c, c.planes.shaded, c.records.shaded, "planes.shaded", "shade.color", out);
 }
 
 double relative(const Vec4<double>& got, const Vec4<double>& expected) {
@@ -198,8 +210,14 @@ void check_matrices(const Capture& c, Lines& out) {
 
 std::vector<std::string> contradictions_of(const Capture& capture, Stage stage) {
   Lines out;
-  if (stage == Stage::window) check_window(capture, out);
-  if (stage == Stage::visibility) check_winners(capture, out);
+  switch (stage) {
+    case Stage::window: check_window(capture, out); break;
+    case Stage::coverage: check_coverage(capture, out); break;
+    case Stage::texture: check_texels(capture, out); break;
+    case Stage::shade: check_shaded(capture, out); break;
+    case Stage::visibility: check_winners(capture, out); break;
+    default: break;
+  }
   return out;
 }
 
@@ -209,6 +227,7 @@ std::vector<std::string> contradictions(const Capture& capture) {
   check_window(capture, out);
   check_coverage(capture, out);
   check_winners(capture, out);
+  check_texels(capture, out);
   check_shaded(capture, out);
   check_depth(capture, out);
   check_color(capture, out);

@@ -14,7 +14,8 @@ namespace plumbline {
 /// are no winner's, a picture without triangles. Empty: none found.
 std::vector<std::string> contradictions(const Capture& capture);
 /// Contradictions of one stage. window: no triangle, but pixels drawn in planes.id, planes.count or planes.color.
-/// visibility: planes.id against planes.count and planes.color. Other stages: none.
+/// coverage: the fragments' number against planes.count. texture, shade: planes.texel and planes.shaded against the
+/// records of the winner's fragment. visibility: planes.id against planes.count and planes.color. Other stages: none.
 std::vector<std::string> contradictions_of(const Capture& capture, Stage stage);
 
 }  // namespace plumbline

@@ -108,6 +108,11 @@ TEST_F(Contradictions, ColoursThatAreNotTheWinnersFragments) {
              }),
              "differ from shade.color of the winner's fragment");
   EXPECT_HAS(after([](Capture& c) { turn_over(c.planes.shaded); }), "; none, if its rows are turned over");
+  Capture textured = of("texture/globe.json");
+  EXPECT_TRUE(contradictions(textured).empty());
+  for (glm::vec4& texel : textured.planes.texel.values()) texel.r *= 0.9f;
+  ASSERT_EQ(contradictions(textured).size(), 1u);
+  EXPECT_HAS(contradictions(textured)[0], "differ from texture.color of the winner's fragment");
 }
 
 // Judges look the primitive of a fragment up by its triangle, which is not there.

@@ -97,7 +97,8 @@ class ReplayedRenderer : public Renderer {
       if (!info_[stage].shows) info_[stage].reason = "the capture does not hold it";
     }
     contradict(Stage::visibility, of_winners);
-    contradict(Stage::window, contradictions_of(capture_, Stage::window));
+    for (const Stage stage : {Stage::window, Stage::coverage, Stage::texture, Stage::shade})
+      contradict(stage, contradictions_of(capture_, stage));
   }
   RendererInfo info() const override { return info_; }
   Capture capture(const Scene&, const Request&) override { return capture_; }

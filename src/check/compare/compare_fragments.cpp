@@ -215,15 +215,28 @@ bool may_exceed_one(const Scene& scene, const Draw& draw) {
   return draw.texture && largest_texel(scene.textures.at(draw.texture->texture)) > 1;
 }
 
+// `wanted`, or what it is clamped to in [0, 1], whichever is nearer to `value`.
+Vec4<double> clamped_or_not(const Vec4<double>& value, const Vec4<double>& wanted) {
+  Vec4<double> out = wanted;
+  for (int k = 0; k < 4; ++k) {
+    const double clamped = std::clamp(wanted[k], 0.0, 1.0);
+    if (std::abs(value[k] - clamped) < std::abs(value[k] - wanted[k])) out[k] = clamped;
+  }
+  return out;
+}
+
 }  // namespace
 
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, double copies) {
   const DrawIndex draws(scene);
+  // A frame of codes holds nothing beyond [0, 1]: a foreign renderer may clamp its colours before.
+  const bool may_clamp = copies > 0 && scene.frame.color != ColorFormat::rgba32f;
   return each_fragment(
       "colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
         const Covered& c = candidate.covered[i];
-        const Vec4<double>&a = candidate.shaded[i].color, &b = reference.shaded[i].color;
+        const Vec4<double>&a = candidate.shaded[i].color, &made = reference.shaded[i].color;
+        const Vec4<double> b = may_clamp ? clamped_or_not(a, made) : made;
         const Place place{c.x, c.y, c.triangle, "color"};
         if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
         const Draw* draw = draws.draw(candidate.triangles[c.triangle].primitive);

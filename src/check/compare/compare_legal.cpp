@@ -62,11 +62,11 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
 
 // `half_code`: added to the oracle's bound for rounding to the frame's format. `at_pixel(meter, x, y)`: more values;
 // true: the pixel's colour is not compared. `holds(answer, x, y)`: whether the pixel's other planes fit the answer; if
-// any answer fits, only fitting ones count.
+// any answer fits, only fitting ones count. `may_clamp`: colours may be clamped to [0, 1].
 template <class AtPixel, class Holds>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
                                 double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel,
-                                const Holds& holds) {
+                                const Holds& holds, bool may_clamp) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
@@ -84,6 +84,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
     };
     const auto apart = [&](const LegalAnswer& a, int i) {
       double diff = difference(stored.middle(c[i]), wanted(a, i));
+      if (may_clamp) diff = std::min(diff, difference(c[i], std::clamp(static_cast<double>(a.color[i]), 0.0, 1.0)));
       // The clear colour may be rounded, and encoded, otherwise than fragments are.
       if (a.primitive == kBackground) diff = std::min(diff, difference(c[i], a.color[i]));
       return diff == 0 ? 0 : diff / (bound(a, i) + half_code);
@@ -140,7 +141,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
   });
 }
 
-Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
+Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
   // No fragment has a colour where only the background is legal; merge judges the clear colour.
   const auto has_no_winner = [&](Meter& meter, int x, int y) {
     if (candidate.color.empty() || !is_cleared(answers_of_winner(legal, candidate, x, y))) return false;
@@ -148,7 +149,8 @@ Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, do
     return true;
   };
   const auto holds = [](const LegalAnswer&, int, int) { return true; };
-  return compare_legal_color(candidate.shaded, candidate, legal, 0, {Conventions{}, 0}, factor, has_no_winner, holds);
+  return compare_legal_color(candidate.shaded, candidate, legal, 0, {Conventions{}, 0}, factor, has_no_winner, holds,
+                             scene.frame.color != ColorFormat::rgba32f);
 }
 
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
@@ -188,7 +190,7 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
     return outside(z, a.z_lo, a.z_hi) / depth_step(scene.frame.depth, z) <= steps;
   };
   return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, stored, factor,
-                             clear_depth, has_its_depth);
+                             clear_depth, has_its_depth, false);
 }
 
 }  // namespace plumbline::check

@@ -59,11 +59,12 @@ struct DeclaredCodes {
 /// winner, visibility reports the pixel, and depth and colour need only be finite. Where the candidate shows no
 /// winners, the nearest answer counts, for colour of those that have the pixel's depth; visibility then judges the
 /// stencil values alone. Where only the cleared frame is legal, merge judges the depth if a colour plane is there.
+/// Shaded colours may be clamped to [0, 1] where the frame holds codes.
 Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
                                 const DeclaredCodes& declared = {});
-Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor);
+Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
                                 const Conventions& conventions = {});
 

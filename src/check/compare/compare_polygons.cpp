@@ -126,6 +126,13 @@ std::size_t turn_of(Vertices mine, Vertices theirs, const Corners& corners) {
   return best;
 }
 
+bool is_at_corner(const ClipVertex<double>& v, const Corners& corners, double most) {
+  return std::ranges::any_of(corners.p_clip, [&](const Vec4<double>& corner) {
+    const Vec4<double> off = glm::abs(v.p_clip - corner);
+    return std::max({off.x, off.y, off.z, off.w}) <= most;
+  });
+}
+
 // `loosely`: vertices on planes whose cuts rounding decides about are held to the triangle and the planes alone.
 template <class At>
 void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const Corners& corners, double factor,
@@ -177,7 +184,7 @@ void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const
       continue;
     }
     // Indistinguishable from an uncut vertex: a cut within rounding of it.
-    const bool as_copy = copies > 0 && v.cut != w.cut;
+    const bool as_copy = copies > 0 && v.cut != w.cut && is_at_corner(w, corners, (copies + factor) * unit);
     meter.value(v.cut == w.cut || as_copy ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
     if (!w.cut || as_copy) {
       for (int c = 0; c < 4; ++c) {

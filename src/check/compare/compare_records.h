@@ -104,7 +104,7 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
                                double from_origin = 0, const Conventions& conventions = {});
 /// Colours: of plain draws bit for bit (as floats), but for `copies` u of the value; of others `factor` u of each step's
-/// magnitude (shade_bounds.h).
+/// magnitude (shade_bounds.h). With `copies`, in a frame of codes, colours may be clamped to [0, 1].
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, double copies = 0);
 /// A varying that is not lit, at the vertices, bit for bit (as floats): stage light only copies it.

@@ -62,7 +62,8 @@ void ask_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, const 
       return c.add(name, stage, compare_legal_depth(c.scene, planes, legal, row.factor, declared), &row);
     }
     case Stage::attributes:
-    case Stage::shade: return add([&](double f) { return compare_legal_shaded(planes, legal, f); }, Stage::attributes);
+    case Stage::shade:
+      return add([&](double f) { return compare_legal_shaded(c.scene, planes, legal, f); }, Stage::attributes);
     case Stage::visibility: {
       Measurement m = compare_legal_winner(planes, legal);
       // Pixels are open where the snapping bound of an edge reaches their centre; the edges' length predicts how many.
