@@ -39,6 +39,7 @@ class RunComparison {
         factor_(factor),
         conventions_(conventions),
         colors_(colors),
+        area_(area),
         legal_(scene, candidate, factor, area, conventions) {}
 
   void operator()(Run mine, Run theirs, std::size_t first) {
@@ -138,8 +139,9 @@ class RunComparison {
       meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_,
                    at(number, "inv_w"), v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
-        const double own = snapped(conventions_, (v.p_win[c] - 0.5) * kSubpixel);
-        meter_.value(difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
+        const double place = (v.p_win[c] - 0.5) * kSubpixel, own = snapped(conventions_, place);
+        const bool may_be = area_ == FacingArea::either && is_as_near(place, own, v.snapped[c]);
+        meter_.value(may_be ? 0 : difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
       }
       const Vec4<double> allowance = colors_ * u * glm::max(glm::abs(colors[k]), Vec4<double>(1));
       add(meter_, v.color, colors[k], Vec4<double>(u), 0, at(number, "color"), allowance);
@@ -148,12 +150,22 @@ class RunComparison {
     meter_.value(difference(a.width, b.width), 0, at(number, "width"), a.width, b.width);
   }
 
+  // Whether `other` is the second place of the grid that is nearest to `place`, half way between two. No specification
+  // says which is taken; exact takes the even one.
+  bool is_as_near(double place, double own, double other) const {
+    const bool is_nearest = conventions_.subpixel_rounding == Conventions::Rounding::nearest;
+    if (!is_nearest || conventions_.subpixel_bits > 8) return false;
+    const double step = std::exp2(8 - conventions_.subpixel_bits);
+    return 2 * std::abs(place - own) == step && other == 2 * place - own;
+  }
+
   static Place at(std::size_t number, const char* field) { return {-1, -1, static_cast<std::int64_t>(number), field}; }
 
   Meter& meter_;
   double factor_;
   const Conventions& conventions_;
   double colors_;
+  FacingArea area_;
   LegalWindow legal_;
 };
 

@@ -77,6 +77,12 @@ Area snapped_area(std::span<const WindowCorner> corners, const Conventions& grid
   return std::max(std::abs(exact.least), std::abs(exact.most)) < 0x1p48 ? exact : area_of(spots, 0x1p-48);
 }
 
+// Areas that decide a facing by FacingArea::either.
+Area either_area(std::span<const WindowCorner> corners, const Conventions& grid) {
+  const Area snapped = snapped_area(corners, grid), plain = unsnapped_area(corners);
+  return {std::min(snapped.least, plain.least), std::max(snapped.most, plain.most)};
+}
+
 bool is_culled(Cull cull, bool front) { return cull == (front ? Cull::front : Cull::back); }
 
 WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width, const WindowCorner& a,
@@ -90,15 +96,16 @@ WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width
   return out;
 }
 
-// Each triangle of the fan is faced, and culled, by itself. One without area covers nothing, drawn or not, whatever it
-// faces.
+// Each triangle of the fan is faced, and culled, by itself; by FacingArea::either also as the whole polygon is. One
+// without area covers nothing, drawn or not, whatever it faces.
 std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const WindowCorner> corners,
                               const Conventions& grid, FacingArea of) {
   std::vector<WindowAnswer> out;
+  const Area whole = of == FacingArea::either ? either_area(corners, grid) : Area{kInfinite, -kInfinite};
   for (std::size_t i = 2; i < corners.size(); ++i) {
     const std::array<WindowCorner, 3> three = {corners[i - 1], corners[i], corners[0]};
-    const Area area = snapped_area(three, grid), plain = of == FacingArea::either ? unsnapped_area(three) : area;
-    const double least = std::min(area.least, plain.least), most = std::max(area.most, plain.most);
+    const Area area = snapped_area(three, grid), plain = of == FacingArea::either ? either_area(three, grid) : area;
+    const double least = std::min(plain.least, whole.least), most = std::max(plain.most, whole.most);
     WindowAnswer answer = answer_of(primitive, 3, 1, three[0], three[1], three[2]);
     const bool front = most > 0, back = least < 0;
     answer.has_no_area = area.least == 0 && area.most == 0;

@@ -24,8 +24,9 @@ struct WindowAnswer {
   bool has_no_area = false;                ///< on the grid: it covers nothing, drawn or not
 };
 
-/// Area that decides the facing of a polygon: that of corners on the grid of the conventions, or, for renderers that
-/// may decide before they snap, either. OpenGL 2.1, equation 3.6, leaves snapping open.
+/// Area that decides the facing of a polygon: that of corners on the grid of the conventions, of each triangle of its
+/// fan; or, for foreign renderers, which may decide before they snap, or once for a polygon of n corners, any of these.
+/// OpenGL 2.1, equation 3.6, leaves snapping open.
 enum class FacingArea { snapped, either };
 
 struct WindowCorner;

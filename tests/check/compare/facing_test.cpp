@@ -106,6 +106,39 @@ TEST_F(Outline, OfAStrangerIsFacedByEitherArea) {
   EXPECT_TRUE(by_either(filled, drawn, filled.records));
 }
 
+// The last corner of a polygon dents it by two steps of the grid, so that the last triangle of its fan is a back face.
+TEST_F(Outline, OfAStrangerIsFacedTriangleByTriangleOrAsAPolygon) {
+  OutlineScene dented;
+  dented.scene.draws[0].front_mode = dented.scene.draws[0].back_mode = PolygonMode::fill;
+  const std::array<Vec3<double>, 4> places = {
+      Vec3<double>(30, 40, 0.5), {50, 40, 0.5}, {50, 50, 0.5}, {40, 45 - 2.0 / 256, 0.5}};
+  Records<double> base = dented.records;
+  base.polygons = {};
+  base.polygons.polygons.push_back({0, 0, 4});
+  for (const Vec3<double>& p : places) {
+    const glm::dvec3 p_ndc = (p - base.matrices[0].win_translate) / base.matrices[0].win_scale;
+    base.polygons.vertices.push_back({glm::dvec4(p_ndc, 1), Vec4<double>(1), false});
+  }
+  const auto drawn = [&](bool first, bool second) {
+    Records<double> out = base;
+    out.triangles.push_back(triangle_of({places[1], places[2], places[0]}, {1, 1, 1}, 0));
+    out.triangles.push_back(triangle_of({places[2], places[3], places[0]}, {1, 1, 1}, 0));
+    out.triangles[0].front = first, out.triangles[1].front = second;
+    for (WindowTriangle<double>& t : out.triangles) {
+      for (WindowVertex<double>& v : t.v) v.color = Vec4<double>(1);
+    }
+    return out;
+  };
+  const auto by = [&](FacingArea area, bool first, bool second) {
+    return passes(compare_window(dented.scene, drawn(first, second), drawn(true, false), 4, {}, 0, area));
+  };
+  EXPECT_TRUE(by(FacingArea::either, true, false));
+  EXPECT_TRUE(by(FacingArea::either, true, true));
+  EXPECT_FALSE(by(FacingArea::either, false, false));
+  EXPECT_TRUE(by(FacingArea::snapped, true, false));
+  EXPECT_FALSE(by(FacingArea::snapped, true, true));
+}
+
 TEST_F(Outline, ItsOwnRecordsExcuseNothing) {
   // Edges that begin where they end have no area by themselves.
   const OutlineScene o(20 * 256);

@@ -74,6 +74,22 @@ TEST_F(Window, SnappingByTruncationFails) {
   EXPECT_TRUE(fails(snapped_to(-0.75, 0))) << "truncated towards zero";
 }
 
+// No specification says to which of two equally near places a position is snapped.
+TEST_F(Window, AStrangerMaySnapHalfAStepEitherWay) {
+  const auto passes_at = [&](double steps, int snapped) {
+    Records<double> a = records;
+    a.triangles[0].v[0].p_win.x = 10 + steps / 256;
+    a.triangles[0].v[0].snapped.x = (10 * 256 - 128) + snapped;
+    return passes(compare_window(scene, a, a, kFactor, {}, 0, FacingArea::either));
+  };
+  EXPECT_TRUE(passes_at(0.5, 0));
+  EXPECT_TRUE(passes_at(0.5, 1));
+  EXPECT_FALSE(passes_at(0.5, -1));
+  EXPECT_FALSE(passes_at(0.5, 2));
+  EXPECT_FALSE(passes_at(0.25, 1));
+  EXPECT_FALSE(passes_at(0, 1));
+}
+
 TEST_F(Window, FacingFlippedFailsUnlessSnappingMayTurnTheTriangle) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Change flipped = [&](auto& r) { r.triangles[i].front = !r.triangles[i].front; };
