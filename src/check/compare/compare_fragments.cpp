@@ -87,10 +87,10 @@ bool may_snap_otherwise(const WindowTriangle<double>& t, const Conventions& conv
   return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(v.p_win.x) || is_between(v.p_win.y); });
 }
 
-// Fragments; those on edges are ambiguous where open(triangle).
+// Fragments; those of samples on edges are ambiguous where open(triangle).
 template <class Open>
 Measurement covered_but_edges_of(const Records<double>& candidate, const Records<double>& reference,
-                                 const Conventions& conventions, Open open) {
+                                 const Conventions& conventions, glm::dvec2 sample, Open open) {
   // Each side moves a corner by half a step of its grid in x and in y, at most; rounded down or up, by a whole step.
   const int bits = conventions.subpixel_bits;
   const double step = bits == Conventions::kFloat ? 1.0 / kSubpixel : std::exp2(-bits),
@@ -98,7 +98,7 @@ Measurement covered_but_edges_of(const Records<double>& candidate, const Records
                most = std::sqrt(2.0) / 2 * (own + 1.0 / kSubpixel);  // [pixel]
   const auto on_an_edge = [&](const Covered& c) {
     const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
-    const glm::dvec2 p(c.x + 0.5, c.y + 0.5);
+    const glm::dvec2 p = glm::dvec2(c.x, c.y) + sample;
     for (std::size_t i = 0; triangle.corners == 3 && open(triangle) && i < 3; ++i) {
       const glm::dvec2 a(triangle.v[i].p_win), along = glm::dvec2(triangle.v[(i + 1) % 3].p_win) - a, to = p - a;
       const double length = glm::length(along), beside = std::abs(along.x * to.y - along.y * to.x) / length,
@@ -113,13 +113,13 @@ Measurement covered_but_edges_of(const Records<double>& candidate, const Records
 }  // namespace
 
 Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
-                                      const Conventions& conventions) {
-  return covered_but_edges_of(candidate, reference, conventions, [](const auto&) { return true; });
+                                      const Conventions& conventions, glm::dvec2 sample) {
+  return covered_but_edges_of(candidate, reference, conventions, sample, [](const auto&) { return true; });
 }
 
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions) {
-  return covered_but_edges_of(candidate, reference, conventions,
+  return covered_but_edges_of(candidate, reference, conventions, glm::dvec2(0.5),
                               [&](const WindowTriangle<double>& t) { return may_snap_otherwise(t, conventions); });
 }
 

@@ -74,10 +74,11 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
 /// Fragments of stage 5, both sides in draw_order() [fragments]: each extra or missing one differs by 1.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
 /// Likewise, for a candidate of another tie rule or grid than the dialect's: a fragment more or less is ambiguous where
-/// its pixel's centre is no farther from an edge of the candidate's triangle than snapping to the declared grid and to
-/// 1/256 pixel together may move the edge. A candidate without a grid counts as one of 1/256 pixel.
+/// its sample is no farther from an edge of the candidate's triangle than snapping to the declared grid and to 1/256
+/// pixel together may move the edge. A candidate without a grid counts as one of 1/256 pixel. `sample`: the place of
+/// samples [pixels from the pixel's corner of smaller coordinates].
 Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
-                                      const Conventions& conventions);
+                                      const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5));
 /// Likewise, for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Ambiguous: the edges
 /// of triangles with a corner within 4 u of midway between two grid positions.
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,

@@ -185,8 +185,10 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
       const bool is_told = are_sums_of(c.candidate.records, c.candidate.planes);
       if (c.foreign && is_told && knows_ties(c.scene, c.conventions))
         return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions));
-      if (covers_otherwise(c) && is_told)
-        return c.add(name, stage, compare_covered_but_edges(c.candidate.records, theirs, c.conventions));
+      if (covers_otherwise(c) && is_told) {
+        const glm::dvec2 sample = 0.5 + glm::dvec2(sample_place(c.scene.frame)) / double{kSubpixel};
+        return c.add(name, stage, compare_covered_but_edges(c.candidate.records, theirs, c.conventions, sample));
+      }
       Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
       if (lacks_fragment_records(c.candidate))
         return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
