@@ -21,12 +21,15 @@ double place_error(const glm::dmat4& m,
 
 }  // namespace
 
+double chord(double ratio) {
+  if (!(ratio < 1)) return 2;
+  return ratio * std::sqrt(2 / (1 + std::sqrt(1 - ratio * ratio)));
+}
+
 Known unit(const Known& a) {
   const double length = glm::length(a.v);
   if (!(length > 2 * a.error)) return {{0, 0, 1}, 2};
-  // The direction is off by an angle of at most asin(r), whose chord is 2 sin(asin(r) / 2).
-  const double r = a.error / length, chord = r * std::sqrt(2 / (1 + std::sqrt(1 - r * r)));
-  return {a.v / length, chord + 4 * kFloatRounding};
+  return {a.v / length, chord(a.error / length) + 4 * kFloatRounding};
 }
 
 Known eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {

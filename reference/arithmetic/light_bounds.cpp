@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "reference/arithmetic/bounded.h"
+#include "reference/arithmetic/color_error.h"
 
 namespace plumbline::math {
 
@@ -63,10 +64,11 @@ Share share_of(const Light& light, const LightSource<double>& source, const Ray&
   const double cosine = -glm::dot(r.to_light, glm::normalize(source.spot_eye));
   const double edge = std::cos(glm::radians(light.spot->cutoff_degrees)), error = (r.condition + 1) * kError;
   const Power p = power(cosine, light.spot->exponent, error);
-  const bool open = std::abs(cosine - edge) <= error + off / r.distance;
+  const double turned = chord(off / r.distance);
+  const bool open = std::abs(cosine - edge) <= error + turned;
   if (cosine < edge && !open) return {0, 0, 0, 0};
   if (open) out.beyond = out.value * p.value;
-  const double moved = moved_power(cosine, light.spot->exponent, off / r.distance);
+  const double moved = moved_power(cosine, light.spot->exponent, turned);
   return {out.value * p.value, out.error * p.value + out.value * p.slope, out.beyond,
           out.inherited * (p.value + moved) + out.value * moved};
 }

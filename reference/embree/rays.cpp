@@ -89,8 +89,15 @@ Handle<RTCGeometry> make_mesh(RTCDevice device, const Projected& projected, std:
   return mesh;
 }
 
-/// Sets 16 rays through a row's pixels from x on; rays beyond the frame are inactive.
-void set_rays(const Projected& projected, int x, int y, int* valid, RTCRayHit16& rays) {
+/// Where parallel rays begin: before the near plane, at -1, and before all corners, which a clamped depth leaves there.
+float start_of_rays(const Projected& projected) {
+  double nearest = -1;
+  for (const math::Corner& corner : projected.corners) nearest = std::min(nearest, place(projected, corner).z);
+  return static_cast<float>(std::floor(nearest) - 1 + std::min(nearest + 1, 0.0) / 1024);  // beyond its rounding
+}
+
+/// Sets 16 rays through a row's pixels from x on; rays beyond the frame are inactive. `start`: start_of_rays().
+void set_rays(const Projected& projected, int x, int y, float start, int* valid, RTCRayHit16& rays) {
   for (int i = 0; i < kPacket; ++i) {
     const glm::dvec3 d = projected.ray(x + i, y);
     const auto dx = static_cast<float>(d.x), dy = static_cast<float>(d.y);  // halves of integers: exact
@@ -98,7 +105,7 @@ void set_rays(const Projected& projected, int x, int y, int* valid, RTCRayHit16&
     valid[i] = on ? -1 : 0;
     rays.ray.org_x[i] = projected.perspective ? 0 : dx;
     rays.ray.org_y[i] = projected.perspective ? 0 : dy;
-    rays.ray.org_z[i] = projected.perspective ? 0 : -2;  // before the near plane, at -1
+    rays.ray.org_z[i] = projected.perspective ? 0 : start;
     rays.ray.dir_x[i] = projected.perspective ? dx : 0;
     rays.ray.dir_y[i] = projected.perspective ? dy : 0;
     rays.ray.dir_z[i] = 1;
@@ -144,9 +151,10 @@ void add_by_rays(const Projected& projected, Candidates& out) {
   init(finding.context);
   alignas(64) int valid[kPacket];
   RTCRayHit16 rays{};
+  const float start = projected.perspective ? 0 : start_of_rays(projected);
   for (int y = 0; y < projected.height; ++y) {
     for (int x = 0; x < projected.width; x += kPacket) {
-      set_rays(projected, x, y, valid, rays);
+      set_rays(projected, x, y, start, valid, rays);
       intersect(valid, scene.get(), finding.context, rays);
     }
     out.require_complete();

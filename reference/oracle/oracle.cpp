@@ -241,6 +241,8 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   std::vector<LegalAnswer> answers;
   const std::vector<bool> asked = asked_pixels(frame, request.pixels);
   double by_depth = 0, centres = 0;
+  const std::size_t most_answers =
+      request.memory_budget / (2 * sizeof(LegalAnswer));  // growing, a vector is there twice
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       hits.clear();
@@ -258,6 +260,8 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       fold_hits(to_fold, frame, answers);
       if (colors == Colors::asked) color_answers(scene, projected, hits, x, y, answers);
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
+      if (legal.answers.size() > most_answers)
+        require_budget(scene, 2 * legal.answers.size() * sizeof(LegalAnswer), request.memory_budget);
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
       draw_inside(scene, projected, hits, x, y, out.planes);
       if (records) add_fragments(projected, hits, x, y, request.records, out.records);
@@ -287,7 +291,9 @@ Legal legal_by_boxes(const Scene& of_dialect, const Request& request) {
   const Projected projected = project(scene, request.conventions);
   add_by_boxes(projected, candidates);
   add_by_edges(projected, candidates);
-  return consult(scene, projected, candidates, {}).legal;
+  Request of_pixels;
+  of_pixels.memory_budget = request.memory_budget;
+  return consult(scene, projected, candidates, of_pixels).legal;
 }
 
 }  // namespace plumbline::math

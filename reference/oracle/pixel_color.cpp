@@ -143,10 +143,11 @@ void FragmentColor::light_fragment(BoundedFour& color, BoundedFour& secondary) c
   const Projected& projected = site_.scene;
   const auto of_fragment = [&](bool specular) {
     const DoubleMaterial material = material_of(scene_, draw_, {is_back(), specular}, color.value);
+    const double of_vertices = follows ? color.bound : 0;  // alpha's, which no light saturates
     const double bound =
-        known ? light_error(scene_, material, {glm::dvec4(p_eye.v, 1), glm::dvec4(0), n_eye.v},
-                            {p_eye.error, n_eye.error, follows ? color.bound : 0, projected.light_errors},
-                            projected.lights)
+        known ? std::max(light_error(scene_, material, {glm::dvec4(p_eye.v, 1), glm::dvec4(0), n_eye.v},
+                                     {p_eye.error, n_eye.error, of_vertices, projected.light_errors}, projected.lights),
+                         of_vertices)
               : kInfinity;
     return BoundedFour{light(scene_, material, projected.lights, p_eye.v, n_eye.v), bound};
   };

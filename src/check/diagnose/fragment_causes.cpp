@@ -80,7 +80,8 @@ void half_a_texel_off(Scene& s, Capture& in) {
   for (std::size_t i = 0; i < in.records.covered.size(); ++i) {
     const Draw* draw = draws.draw(in.records.triangles.at(in.records.covered[i].triangle).primitive);
     if (draw == nullptr || !draw->texture) continue;
-    const TextureLevel& base = s.textures[draw->texture->texture].levels.front();
+    const Texture& texture = s.textures[draw->texture->texture];
+    const TextureLevel& base = texture.levels.at(static_cast<std::size_t>(texture.sampler.base_level));
     Vec4<double>& st = coordinates(in).at(i);
     st.s += 0.5 / base.width;
     st.t += 0.5 / base.height;

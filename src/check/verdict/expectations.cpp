@@ -1,6 +1,7 @@
 #include "check/verdict/expectations.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -99,6 +100,11 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& path, st
 std::vector<Settled> settle_expectations(std::span<const Expectation> expectations, std::span<const std::string> asked,
                                          std::chrono::sys_days today, SceneVerdict& verdict) {
   std::vector<Settled> out;
+  std::vector<Outcome> judged;  // of each row, before any expectation: two may hold for one row
+  std::ranges::transform(verdict.comparisons, std::back_inserter(judged), &Comparison::outcome);
+  const auto judged_of = [&](const Comparison* c) {
+    return judged[static_cast<std::size_t>(c - verdict.comparisons.data())];
+  };
   for (const Expectation& e : expectations) {
     if (e.scene != verdict.scene || std::ranges::count(asked, e.reference) == 0) continue;
     const auto is_it = [&](const Comparison& c) { return is_of(e, c.judge) && c.stage == e.stage; };
@@ -106,13 +112,13 @@ std::vector<Settled> settle_expectations(std::span<const Expectation> expectatio
     for (Comparison& c : verdict.comparisons) {
       if (is_it(c)) rows.push_back(&c);
     }
-    const bool occurs = std::ranges::any_of(rows, [&](const Comparison* c) { return c->outcome == e.outcome; });
+    const bool occurs = std::ranges::any_of(rows, [&](const Comparison* c) { return judged_of(c) == e.outcome; });
     if (rows.empty()) {
       out.push_back({&e, Settlement::unmatched, fmt::format("expectation {}: there is no such row", row_of(e))});
     } else if (!occurs) {
       out.push_back({&e, Settlement::passed,
                      fmt::format("unexpected {}: {}, expected {} ({}, {}): the expectation can go", row_of(e),
-                                 name_of(rows.front()->outcome), name_of(e.outcome), e.reason, e.issue)});
+                                 name_of(judged_of(rows.front())), name_of(e.outcome), e.reason, e.issue)});
     } else if (today > e.expires) {
       out.push_back({&e, Settlement::expired,
                      fmt::format("expired {}: was expected until {} ({}, {})", row_of(e), to_string(e.expires),

@@ -63,6 +63,17 @@ TEST_F(Expectations, WhatOccursIsExpectedUntilItsLastDay) {
   EXPECT_EQ(v.comparisons[0].outcome, Outcome::different) << "still a failure";
 }
 
+// One for rows of any kind, and one for this kind: the first leaves the second something to expect.
+TEST_F(Expectations, TwoOfOneRowBothOccur) {
+  std::vector<Expectation> both = known();
+  both.push_back(both[0]);
+  both[1].kind = Kind::side_by_side;
+  SceneVerdict v = verdict(Outcome::different);
+  for (const Settled& settled : settle_expectations(both, kAsked, day_of("2030-06-30"), v))
+    EXPECT_EQ(settled.fate, Settlement::occurred) << settled.line;
+  EXPECT_EQ(v.comparisons[0].outcome, Outcome::expected);
+}
+
 TEST_F(Expectations, WhatPassesUnexpectedlyOrIsNowhereFails) {
   const auto known = this->known();
   for (const Outcome outcome : {Outcome::equal, Outcome::failed, Outcome::unsupported}) {

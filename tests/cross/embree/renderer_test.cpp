@@ -58,6 +58,28 @@ TEST(EmbreeRenderer, RefusesVerticesThatEmbreeWouldDrop) {
   }
 }
 
+// Parallel rays begin before whatever a clamped depth leaves before the near plane.
+TEST(EmbreeRenderer, MeetsWhatLiesFarBeforeTheNearPlane) {
+  Scene scene = test::frame_of(16, 16);
+  scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}};
+  scene.projection = Orthographic{-1.5, 1.5, -1.5, 1.5, 1, 2};
+  scene.depth_clamp = true;
+  Mesh mesh;
+  mesh.positions = {{-1, -1, 2.8f}, {1, -1, 2.8f}, {1, 1, 2.8f}, {-1, 1, 2.8f}};
+  mesh.normals.assign(4, {0, 0, 1});
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.meshes.push_back(mesh);
+  Draw draw;
+  draw.lit = false;
+  draw.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+  scene.draws.push_back(draw);
+  const Capture rays = embree::make_embree()->capture(scene, Request{});
+  const Capture exact = exact::make_exact()->capture(scene, Request{});
+  EXPECT_NE(exact.planes.id(8, 9), kBackground);
+  EXPECT_NE(rays.planes.id(8, 9), kBackground);
+  EXPECT_EQ(rays.planes.depth(8, 9), 0);
+}
+
 class EmbreePlanes : public ::testing::TestWithParam<int> {};
 
 // Exact snaps and covers in integers, embree asks double: away from edges and depth ties both know the winner.
