@@ -35,6 +35,13 @@ struct BoundedFour {
   double bound = 0;
 };
 
+/// How far a direction is off [length of the difference of unit vectors] whose vector is off by `ratio` of its length: by
+/// an angle of at most asin(ratio), whose chord is 2 sin(asin(ratio) / 2). 2 from 1 on: no direction is certain.
+inline double chord(double ratio) {
+  if (!(ratio < 1)) return 2;
+  return ratio * std::sqrt(2 / (1 + std::sqrt(1 - ratio * ratio)));
+}
+
 /// Operations of a fragment's colour on real numbers.
 struct Exactly {
   static double product(double a, double b) { return a * b; }

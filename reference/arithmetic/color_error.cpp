@@ -21,11 +21,6 @@ double place_error(const glm::dmat4& m,
 
 }  // namespace
 
-double chord(double ratio) {
-  if (!(ratio < 1)) return 2;
-  return ratio * std::sqrt(2 / (1 + std::sqrt(1 - ratio * ratio)));
-}
-
 Known unit(const Known& a) {
   const double length = glm::length(a.v);
   if (!(length > 2 * a.error)) return {{0, 0, 1}, 2};

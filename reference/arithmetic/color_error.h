@@ -27,9 +27,6 @@ struct Known {
   double error;
 };
 
-/// How far a direction is off [length of the difference of unit vectors] whose vector is off by `ratio` of its length: by
-/// an angle of at most asin(ratio), whose chord is 2 sin(asin(ratio) / 2). 2 from 1 on: no direction is certain.
-double chord(double ratio);
 /// `a` at unit length; normalising adds 4 u. Where |a| <= 2 * error, no direction is certain: +z with an error of 2.
 Known unit(const Known& a);
 /// Position and normal of the mesh's vertex number `vertex`, with the errors of float arithmetic.

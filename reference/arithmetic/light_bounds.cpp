@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "reference/arithmetic/bounded.h"
-#include "reference/arithmetic/color_error.h"
 
 namespace plumbline::math {
 

@@ -41,9 +41,9 @@ std::vector<std::string> causes_of(const CheckOptions& o, const Scene& scene, co
                                    const RendererInfo& renderer, const check::SceneVerdict& verdict) {
   const report::Conformance ended = report::conformance_of(verdict);
   const bool is_wrong = ended == report::Conformance::differs, is_failed = ended == report::Conformance::failed;
-  const bool has_passes = antialiased(scene);  // which are drawn, not the scene
-  if (has_passes || !(is_wrong || is_failed)) return {};
+  if (!is_wrong && !is_failed) return {};
   if (!o.seeks_causes) return {"known faults are not sought, by --no-causes"};
+  if (antialiased(scene)) return {"known faults are not sought where passes are drawn, not the scene"};
   const std::optional<Planes> alone = drawn_alone(o.candidate, scene);
   const bool left_nothing = verdict.comparisons.front().judge.reference == renderer.name;
   if (alone && is_failed && left_nothing) return {"drawn by the program when it is started for this scene alone"};
