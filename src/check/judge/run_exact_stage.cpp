@@ -14,6 +14,7 @@
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
 #include "check/judge/unit_normals.h"
+#include "scene/antialias.h"
 
 namespace plumbline::check {
 
