@@ -35,8 +35,8 @@ struct BoundedFour {
   double bound = 0;
 };
 
-/// How far a direction is off [length of the difference of unit vectors] whose vector is off by `ratio` of its length: by
-/// an angle of at most asin(ratio), whose chord is 2 sin(asin(ratio) / 2). 2 from 1 on: no direction is certain.
+/// Largest difference of two unit vectors [length], one of a vector, one of the same off by `ratio` of its length: the
+/// chord 2 sin(asin(ratio) / 2) of their angle. From 1 on 2: no direction is certain.
 inline double chord(double ratio) {
   if (!(ratio < 1)) return 2;
   return ratio * std::sqrt(2 / (1 + std::sqrt(1 - ratio * ratio)));

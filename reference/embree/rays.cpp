@@ -89,7 +89,7 @@ Handle<RTCGeometry> make_mesh(RTCDevice device, const Projected& projected, std:
   return mesh;
 }
 
-/// Where parallel rays begin: before the near plane, at -1, and before all corners, which a clamped depth leaves there.
+/// Start of parallel rays [z]: before the near plane, at -1, and before all corners; clamped depths leave some there.
 float start_of_rays(const Projected& projected) {
   double nearest = -1;
   for (const math::Corner& corner : projected.corners) nearest = std::min(nearest, place(projected, corner).z);

@@ -242,7 +242,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   const std::vector<bool> asked = asked_pixels(frame, request.pixels);
   double by_depth = 0, centres = 0;
   const std::size_t most_answers =
-      request.memory_budget / (2 * sizeof(LegalAnswer));  // growing, a vector is there twice
+      request.memory_budget / (2 * sizeof(LegalAnswer));  // a vector that grows is there twice
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       hits.clear();

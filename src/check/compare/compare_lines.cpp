@@ -114,7 +114,7 @@ Box box_of(const DrawIndex& draws, std::uint32_t primitive, glm::ivec2 extent) {
   return out;
 }
 
-// What both sides have in common of a line.
+// Properties of a line that both sides share.
 struct LineShape {
   std::uint32_t primitive;
   const WindowTriangle<double>* window;  // the candidate's

@@ -100,7 +100,7 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& path, st
 std::vector<Settled> settle_expectations(std::span<const Expectation> expectations, std::span<const std::string> asked,
                                          std::chrono::sys_days today, SceneVerdict& verdict) {
   std::vector<Settled> out;
-  std::vector<Outcome> judged;  // of each row, before any expectation: two may hold for one row
+  std::vector<Outcome> judged;  // rows' outcomes before any expectation: two may hold for one row
   std::ranges::transform(verdict.comparisons, std::back_inserter(judged), &Comparison::outcome);
   const auto judged_of = [&](const Comparison* c) {
     return judged[static_cast<std::size_t>(c - verdict.comparisons.data())];

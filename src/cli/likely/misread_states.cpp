@@ -143,7 +143,7 @@ bool is_set(const DepthRange& range) { return range != DepthRange(); }
 bool is_set(bool writes_depth) { return !writes_depth; }
 bool is_set(const glm::bvec4& written) { return written != glm::bvec4(true); }
 
-// A state that a draw sets, of(draw), is that of later draws too, until one sets another.
+// State of(draw) that stays: where a draw sets none, it has that of the draw before.
 template <class Of>
 Change stays(Of of) {
   return [of](Scene& scene) {
