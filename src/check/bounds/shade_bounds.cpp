@@ -68,7 +68,7 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
     const auto after = [&](const Vec4<double>& before) {
       return environ_error(format, *draw.texture, before, error, attributes.texel, errors.texel, roundings);
     };
-    const Environed dark = after(low), bright = after(high);  // the error is largest at one of them
+    const Environed dark = after(low), bright = per_fragment ? after(high) : dark;  // the error is largest at either
     error = glm::max(dark.error, bright.error);
     low = glm::min(dark.color, bright.color), high = glm::max(dark.color, bright.color);
     color = dark.color;
@@ -77,7 +77,7 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
     const Vec4<double> apart =
         per_fragment ? light_error(scene, draw, true, attributes, errors, roundings) : errors[Varying::secondary];
     error += Vec4<double>(Vec3<double>(apart) + roundings(1), 0);
-    for (int c = 0; c < 3; ++c) high[c] = high[c] > 1 ? high[c] + 1 : 1;  // a sum of up to 1 is clamped to it
+    low = glm::max(low, Vec4<double>(0)), high = Vec4<double>(1);  // the sum is clamped (OpenGL 2.1 spec 3.9)
   }
   if (draw.fog) {
     const auto [f, df] =
