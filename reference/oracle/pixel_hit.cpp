@@ -10,17 +10,17 @@ namespace plumbline::math {
 
 namespace {
 
-/// Sets the depth interval in the window, from that of z_view: two further roundings, unless the depth range is [0,1],
-/// whose rounding is counted already. `in_float`: error_in_float().
-void set_window_depth(const Triangle& t, bool clamps, double lo, double hi, double weight, double in_float,
-                      PixelHit& out) {
+/// Sets the depth interval in the window, from that of the plane's z_view: two further roundings, unless the depth range
+/// is [0,1], whose rounding is counted already. `in_float`: error_in_float().
+void set_window_depth(const Triangle& t, bool clamps, const PixelDepth& plane, double lo, double hi, double weight,
+                      double in_float, PixelHit& out) {
   const double moved = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
   const double rounding = moved + t.offset.half + in_float;
   const auto [low, high] = clamps ? std::minmax({double{t.range.near}, double{t.range.far}}) : std::pair(0.0, 1.0);
-  out.win.z = to_window(t, out.view.z);
+  out.win.z = to_window(t, plane.z);
   if (clamps) out.win.z = std::clamp(out.win.z, low, high);
-  out.win.half = scale * out.view.half + rounding;
-  out.win.slope = (double{t.range.far} - double{t.range.near}) * out.view.slope;
+  out.win.half = scale * plane.half + rounding;
+  out.win.slope = (double{t.range.far} - double{t.range.near}) * plane.slope;
   if (!std::isfinite(rounding)) {
     out.hit.z_lo = low;
     out.hit.z_hi = high;
@@ -31,8 +31,8 @@ void set_window_depth(const Triangle& t, bool clamps, double lo, double hi, doub
   out.hit.z_hi = std::clamp(farthest + rounding, low, high);
 }
 
-/// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane are
-/// snapped alike, or by the plane's own error where only coverage is snapped; plus the corners' depth error.
+/// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane may be
+/// snapped alike, by the plane's own error where depth_corners are as they are; plus the corners' depth error.
 void set_depth(const PixelSite& site, PixelHit& out) {
   const Projected& scene = site.scene;
   const Triangle& t = site.t;
@@ -52,9 +52,13 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   view.slope = glm::dvec2(t.z_plane);
   const double from_middle = std::abs(2 * view.z - 1), z_ndc = clamps ? from_middle : std::min(from_middle, 1.0);
   const double corner_error = kFloatRounding * (t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * site.w) + 1);
-  view.half = glm::dot(glm::abs(view.slope), scene.step + weight * site.moved) + weight * corner_error;
-  double lo = view.z - view.half, hi = view.z + view.half;
-  const bool not_cut = clamps || (lo > 0 && hi < 1);  // by the near or far plane, here
+  const double of_plane = glm::dot(glm::abs(view.slope), weight * site.moved) + weight * corner_error;
+  view.half = of_plane + glm::dot(glm::abs(view.slope), glm::dvec2(scene.step));
+  // By the near or far plane, here: cuts are snapped, whatever the plane goes through.
+  const bool not_cut = clamps || (view.z - view.half > 0 && view.z + view.half < 1);
+  const bool by_grid = scene.conventions.depth_corners != Conventions::DepthCorners::as_they_are;
+  const double half = by_grid || site.may_turn_over(out.hit.certain) ? view.half : of_plane;
+  double lo = view.z - half, hi = view.z + half;
   out.whole = out.whole || (t.facing_kept && not_cut);
   // Inside, every plane comes to a convex combination of the corners' depths; outside it may overshoot them.
   if (out.hit.certain && t.ahead) {
@@ -62,8 +66,8 @@ void set_depth(const PixelSite& site, PixelHit& out) {
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  set_window_depth(t, clamps, lo, hi, weight, error_in_float(scene, t, site.d, site.piece_altitudes(out.hit.certain)),
-                   out);
+  set_window_depth(t, clamps, {view.z, half, view.slope}, lo, hi, weight,
+                   error_in_float(scene, t, site.d, site.piece_altitudes(out.hit.certain)), out);
 }
 
 }  // namespace

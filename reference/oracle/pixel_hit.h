@@ -27,7 +27,7 @@ struct PixelHit {
   /// range, and not culled.
   bool inside = false;
   bool whole = false;      ///< not culled, not cut here in depth, and side cuts round alike: may join a group
-  PixelDepth view;         ///< z_view: 0 on the near plane, 1 on the far one; not clamped
+  PixelDepth view;         ///< z_view: 0 on the near plane, 1 on the far one; not clamped. half: as far as cuts move
   PixelDepth win;          ///< window z; clamped to the depth range under depth clamp
   bool drawn = false;      ///< inside, and passed all tests in double (oracle.h)
   double delta = 0;        ///< largest displacement of the triangle's outline here [pixels]

@@ -169,10 +169,8 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const double near_end = std::max(w, centre == d ? 0 : 1 / glm::dot(t.w_plane, centre)) / t.w_min;
   const double value_weight = 1 + (weight - 1) * near_end;
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
-  // A piece of a cut triangle may be so thin that snapping turns it over; its plane then goes through snapped corners.
-  const bool turned = !certain && (t.cut || t.thin);
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
-  const glm::dvec2 from_place = weight * moved + (snapped ? weight * scene.step : turned ? scene.step : 0);
+  const glm::dvec2 from_place = weight * moved + (snapped ? weight : may_turn_over(certain) ? 1.0 : 0.0) * scene.step;
   const double shares = near_end * shares_error_in_float(scene, t, centre);
   return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + attribute_error(shares, most) +
                      value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +

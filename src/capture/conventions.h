@@ -26,6 +26,7 @@ struct Conventions {
   enum class DepthPlanes { cut, clamped };
   enum class Interpolation { perspective, affine };
   enum class Corners { as_they_are, snapped };
+  enum class DepthCorners { either, as_they_are, snapped };
   enum class Provoking { last, first };
   enum class AlphaTest { in_codes, in_float, either };
   enum class LevelOfDetail { per_pixel, per_square, approximate };
@@ -54,6 +55,7 @@ struct Conventions {
   DepthPlanes depth_planes = DepthPlanes::cut;
   Interpolation interpolation = Interpolation::perspective;
   Corners attribute_corners = Corners::as_they_are;
+  DepthCorners depth_corners = DepthCorners::either;
   Provoking provoking_vertex = Provoking::last;
   AlphaTest alpha_test = AlphaTest::in_codes;
   Blending blending = Blending::in_float;
@@ -95,6 +97,8 @@ template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Interpolation> = {"perspective", "affine"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Corners> = {"as_they_are", "snapped"};
+template <>
+inline constexpr std::array<Name, 3> kNamesOf<Conventions::DepthCorners> = {"either", "as_they_are", "snapped"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Provoking> = {"last", "first"};
 template <>
@@ -149,6 +153,8 @@ void each_choice(Visit visit) {
   visit(ConventionWords{"interpolation", "how attributes are interpolated", false}, &C::interpolation);
   visit(ConventionWords{"attribute_corners", "window positions that attributes are interpolated between", true},
         &C::attribute_corners);
+  visit(ConventionWords{"depth_corners", "window positions that depths are interpolated between", true},
+        &C::depth_corners);
   visit(ConventionWords{"provoking_vertex", "the vertex that colours a flat triangle", false}, &C::provoking_vertex);
   visit(ConventionWords{"alpha_test", "the numbers that are compared", true}, &C::alpha_test);
   visit(ConventionWords{"blending", "the numbers that are blended", true}, &C::blending);

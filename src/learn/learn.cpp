@@ -23,6 +23,7 @@ const std::vector<Probe>& probes() {
       {learn_colors, {"color_rounding", "color_encoding"}},
       {learn_interpolation, {"interpolation"}},
       {learn_corners, {"attribute_corners"}},
+      {learn_depth_corners, {"depth_corners"}},
       {learn_depth_arithmetic, {"depth_arithmetic"}},
       {learn_provoking_vertex, {"provoking_vertex"}},
       {learn_alpha_test, {"alpha_test"}},

@@ -19,12 +19,6 @@ using C = Conventions;
 
 constexpr int kDepthsInRow = 16;
 
-// Depth in OpenGL's view volume [0,1] to draw at, so that the declared view volume yields `z`. The volume [0,w] in z is
-// the far half of OpenGL's.
-double in_volume(const C& conventions, double z) {
-  return conventions.clip_depth == C::ClipDepth::zero_to_w ? (1 + z) / 2 : z;
-}
-
 // Rectangles of 4 x 4 pixels, each at one depth.
 Scene at_depths(const Prober& prober, const std::string& name, const std::vector<double>& depths) {
   Scene scene = probe_frame(name, 4 * kDepthsInRow, 4 * kDepthsInRow);
@@ -321,8 +315,9 @@ void learn_depth_arithmetic(Prober& prober) {
   }
   constexpr int kFinest = 10;  // places at multiples of 2^-10 pixel are exact (probe_scene.h)
   // Corners on the grid are where they are, snapped or not; off it, edge equations in float lose more.
-  const bool may_be_snapped = c.attribute_corners == C::Corners::snapped || prober.is_open("attribute_corners");
-  const int bits = may_be_snapped && c.subpixel_bits != C::kFloat ? std::min(c.subpixel_bits, kFinest) : kFinest;
+  const int bits = c.depth_corners != C::DepthCorners::as_they_are && c.subpixel_bits != C::kFloat
+                       ? std::min(c.subpixel_bits, kFinest)
+                       : kFinest;
   Interpolated of;
   count(prober, {64, 64}, large_and_near(), of);
   count(prober, {2048, 8}, long_and_low(), of);

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "capture/conventions.h"
 #include "scene/scene.h"
 
 namespace plumbline::learn {
@@ -17,6 +18,12 @@ struct ProbeCorner {
   glm::vec4 color{1};
   glm::vec2 texcoord{0};
 };
+
+/// Depth in OpenGL's view volume [0,1] to draw at, so that the declared view volume yields `z`. The volume [0,w] in z is
+/// the far half of OpenGL's.
+inline double in_volume(const Conventions& conventions, double z) {
+  return conventions.clip_depth == Conventions::ClipDepth::zero_to_w ? (1 + z) / 2 : z;
+}
 
 /// A black frame, and no draw. Model space is the window (ProbeCorner): where the frame's sides are powers of two, and
 /// places multiples of 2^-10 pixel, floats on the way to the window lose nothing.

@@ -53,6 +53,7 @@ class OfAlteredScenes : public Renderer {
 inline C ours() {
   C out;
   out.tie_rule = C::TieRule::left_bottom;
+  out.depth_corners = C::DepthCorners::as_they_are;
   return out;
 }
 

@@ -46,6 +46,7 @@ TEST(LearnEdges, AGridOfWholePixelsIsFoundWithItsRounding) {
     EXPECT_EQ(c.subpixel_bits, 0);
     EXPECT_EQ(c.sample, glm::dvec2(0.5));
     EXPECT_EQ(c.attribute_corners, C::Corners::snapped) << "attributes go by the moved positions";
+    EXPECT_EQ(c.depth_corners, C::DepthCorners::snapped) << "depths go by the moved positions";
   }
   EXPECT_EQ(floored.subpixel_rounding, C::Rounding::down);
   EXPECT_EQ(raised.subpixel_rounding, C::Rounding::up);

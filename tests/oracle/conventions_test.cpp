@@ -74,6 +74,23 @@ TEST(OracleConventions, AnAlphaOfZeroIsZeroInAnyArithmetic) {
   EXPECT_EQ(answers_at(1), 1u);
 }
 
+// A depth of slope 1/30 per pixel: corners that snapping moves by half a step of 1/256 pixel move it by 1/15360 more.
+TEST(OracleConventions, DepthsBetweenCornersAsTheyAreDoNotMoveWithTheGrid) {
+  const Scene scene =
+      window_scene({{glm::vec3(3.201f, 2.103f, 0.1f), {29.703f, 5.301f, 0.9834f}, {9.905f, 27.807f, 0.32347f}}});
+  const auto half = [&](C::DepthCorners corners) {
+    C c;
+    c.depth_corners = corners;
+    const LegalAnswer winner = legal(scene, c).at(14, 12).front();
+    return (winner.z_hi - winner.z_lo) / 2;
+  };
+  const double as_they_are = half(C::DepthCorners::as_they_are);
+  EXPECT_GT(as_they_are, 0);
+  EXPECT_LT(as_they_are, 3e-6);
+  EXPECT_NEAR(half(C::DepthCorners::either), as_they_are + 1.0 / 15360, 1e-7);
+  EXPECT_EQ(half(C::DepthCorners::either), half(C::DepthCorners::snapped));
+}
+
 // A renderer that leaves the sides to the raster cuts at the near plane alone: its corners lie far outside the window,
 // and its depths in float are off by more.
 TEST(OracleConventions, CornersOfTheNearPlanesCutsMayLieFarOutside) {

@@ -170,6 +170,13 @@ void face_as_it_lies(WindowTriangle<double>& t) {
   t.v[0].snapped = {0, 0}, t.v[1].snapped = {kSubpixel, 0}, t.v[2].snapped = {0, up};
 }
 
+// Whether the stage interpolates between snapped corners.
+bool goes_by_grid(Stage stage, const C& conventions) {
+  if (conventions.subpixel_bits == C::kFloat) return false;
+  return stage == Stage::depth ? conventions.depth_corners == C::DepthCorners::snapped
+                               : conventions.attribute_corners == C::Corners::snapped;
+}
+
 // The corners where the grid has them. window.snapped holds grids of at most 8 bits.
 void move_to_grid(WindowTriangle<double>& t, const C& conventions) {
   const int bits = conventions.subpixel_bits;
@@ -182,9 +189,8 @@ void move_to_grid(WindowTriangle<double>& t, const C& conventions) {
 }
 
 Capture interpolate(Renderer& referee, const Scene& scene, Stage stage, const Capture& in, const C& conventions) {
-  const bool is_float = conventions.subpixel_bits == C::kFloat;
-  const bool is_finer = is_float || conventions.subpixel_bits > 8;
-  const bool are_snapped = !is_float && conventions.attribute_corners == C::Corners::snapped;
+  const bool is_finer = conventions.subpixel_bits == C::kFloat || conventions.subpixel_bits > 8;
+  const bool are_snapped = goes_by_grid(stage, conventions);
   const bool is_affine = conventions.interpolation == C::Interpolation::affine && stage != Stage::depth;
   const bool turns_over = is_finer && std::ranges::any_of(in.records.triangles, is_turned_over);
   if (!turns_over && !are_snapped && !is_affine) return referee.run_stage(scene, stage, in, conventions);

@@ -23,8 +23,8 @@ bool knows_ties(const Scene& scene, const Conventions& conventions);
 ///   grid. Corners that are not snapped count on a grid of 16 bits, or of fewer where positions exceed 31 bits;
 /// - coverage: where knows_ties(), triangles own samples on their edges by the declared rule;
 /// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between which
-///   the renderer interpolates; where attribute_corners are snapped, the renderer interpolates between snapped corners;
-///   attributes and texture: by 1/w = 1 where interpolation is affine;
+///   the renderer interpolates; where depth_corners (depth) or attribute_corners are snapped, the renderer interpolates
+///   between snapped corners; attributes and texture: by 1/w = 1 where interpolation is affine;
 /// - depth: polygon offsets by offset_unit; texture: levels and weights by texture_bits, level_of_detail, magnified and
 ///   half_way_level;
 /// - visibility: where alpha tests are in float, alphas are not rounded to codes;

@@ -149,15 +149,15 @@ std::uint64_t depths_that_differ(const SceneJudgement& c, const Capture& made) {
 
 }  // namespace
 
-// attribute_corners binds attributes alone: where it is `snapped`, depths are made from the snapped corners and from
-// the corners as they are, and the better fit counts.
+// Where depth_corners is `either`, depths are made from the corners as they are and from the snapped corners, and the
+// better fit counts.
 void run_exact_stage(const SceneJudgement& c, Renderer& referee, Stage stage, const JudgeId& name) {
   if (stage >= Stage::depth && lacks_fragment_records(c.candidate))
     return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   Conventions by = c.foreign ? c.conventions : Conventions();
   Capture made = run_by_conventions(referee, c.scene, stage, c.candidate, by);
-  if (stage == Stage::depth && by.attribute_corners == Conventions::Corners::snapped) {
-    by.attribute_corners = Conventions::Corners::as_they_are;
+  if (stage == Stage::depth && c.foreign && by.depth_corners == Conventions::DepthCorners::either) {
+    by.depth_corners = Conventions::DepthCorners::snapped;
     Capture other = run_by_conventions(referee, c.scene, stage, c.candidate, by);
     if (depths_that_differ(c, other) < depths_that_differ(c, made)) made = std::move(other);
   }

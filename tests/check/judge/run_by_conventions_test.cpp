@@ -152,6 +152,7 @@ TEST_F(ByConventions, DeclaredCornersAreInterpolatedBetween) {
     c.subpixel_bits = bits;
     const auto made_by = [&](C::Corners corners, Stage stage) {
       c.attribute_corners = corners;
+      c.depth_corners = corners == C::Corners::snapped ? C::DepthCorners::snapped : C::DepthCorners::either;
       return run_by_conventions(*exact, scene, stage, candidate, c).records;
     };
     const auto plain = exact->run_stage(scene, Stage::attributes, candidate).records.attributes;
