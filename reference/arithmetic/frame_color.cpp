@@ -131,10 +131,12 @@ glm::dvec4 middle(const ColorInterval& c) {
   return {(c[0].lo + c[0].hi) / 2, (c[1].lo + c[1].hi) / 2, (c[2].lo + c[2].hi) / 2, (c[3].lo + c[3].hi) / 2};
 }
 
-FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending, Conventions::Rounding rounding)
+FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending, Conventions::Rounding rounding,
+                       BlendedIn numbers)
     : unit_(frame.color == ColorFormat::rgba32f ? 1 : color_scale(frame.color)),
       codes_(frame.color != ColorFormat::rgba32f),
       blends_codes_(codes_ && blending == Conventions::Blending::in_codes),
+      blends_in_float_(numbers == BlendedIn::floats),
       rounding_(rounding),
       written_{},
       stored_{} {
@@ -157,12 +159,11 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
     const Interval sum = blender(c < 3 ? state.blend->rgb : state.blend->alpha, c);
     result[c] = clamped({sum.lo - 2 * half, sum.hi + 2 * half});
   }
-  // Slack of the rounding to codes: a colour in float may be one float rounding off when it is scaled to codes, a
-  // colour that is blended here, in double, a few 2^-53 of products of codes. Renderers that do not round to the nearest
-  // are not OpenGL's: they may blend in float (product and factor of two terms, sum, scale: 8 u of the largest code),
-  // and what they truncate is often whole but for that.
-  const bool blends = state.blend && !state.logic_op, is_nearest = rounding_ == Conventions::Rounding::nearest;
-  const double either_way = !blends ? unit_ * 0x1p-23 : is_nearest ? 0x1p-36 : unit_ * 0x1p-21;
+  // Slack of the rounding to codes: a colour in float may be one float rounding off when it is scaled to codes; a
+  // colour blended in double, a few 2^-53 of products of codes; one blended in float, 8 u of the largest code (factor
+  // and product of two terms, the stored colour, the sum, the scale).
+  const bool blends = state.blend && !state.logic_op;
+  const double either_way = !blends ? unit_ * 0x1p-23 : blends_in_float_ ? unit_ * 0x1p-21 : 0x1p-36;
   const auto code = [&](double v) { return to_whole(rounding_, std::clamp(v, 0.0, unit_)); };
   const auto codes = [&](Interval v) -> Interval { return {code(v.lo - either_way), code(v.hi + either_way)}; };
   for (std::size_t c = 0; c < 4; ++c) {

@@ -28,12 +28,16 @@ glm::vec4 low(const ColorInterval& color);
 glm::vec4 high(const ColorInterval& color);
 glm::dvec4 middle(const ColorInterval& color);
 
+/// Numbers that a renderer blends in, whose roundings decide which code a sum half way between two becomes.
+enum class BlendedIn { doubles, floats };
+
 class FrameColor {
  public:
   /// A pixel of the clear colour. Where renderers blend in codes, each factor and each product may be half a code off.
   /// `rounding`: of colours to the codes that are stored and read again.
   explicit FrameColor(const FrameFormat& frame, Conventions::Blending blending = Conventions::Blending::in_float,
-                      Conventions::Rounding rounding = Conventions::Rounding::nearest);
+                      Conventions::Rounding rounding = Conventions::Rounding::nearest,
+                      BlendedIn numbers = BlendedIn::doubles);
 
   /// Blends a fragment's colour with the stored one, or combines their codes by the logic op, and stores the channels
   /// that the mask leaves, in the frame's format.
@@ -48,6 +52,7 @@ class FrameColor {
   double unit_;  // the largest code; 1 for rgba32f, which is neither clamped nor rounded to codes
   bool codes_;
   bool blends_codes_;
+  bool blends_in_float_;
   Conventions::Rounding rounding_;
   ColorInterval written_, stored_;  // times unit_
 };

@@ -189,7 +189,8 @@ void color_answers(const Scene& scene, const Projected& projected, std::span<Pix
 /// Sets the legal interval of the frame's colour at a pixel: unbounded unless it is certain which fragments are drawn.
 void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, int x, int y,
                  Legal& legal) {
-  FrameColor color(scene.frame, projected.conventions.blending, projected.conventions.color_rounding);
+  FrameColor color(scene.frame, projected.conventions.blending, projected.conventions.color_rounding,
+                   BlendedIn::floats);
   LegalFold fold(scene.frame);
   bool certain = true;
   for (const Hit& hit : hits) {

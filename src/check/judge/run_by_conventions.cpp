@@ -239,13 +239,17 @@ Capture test_in_float(Renderer& referee, const Scene& scene, const Capture& in) 
 
 // ---- merge
 
-// The frame's colours, whose fragments blend with codes that are rounded as declared.
-Capture merge_rounded(Renderer& referee, const Scene& scene, const Capture& in, const C& conventions) {
+}  // namespace
+
+Capture merge_in_float(Renderer& referee, const Scene& scene, const Capture& in, const C& conventions) {
   Capture out = referee.run_stage(scene, Stage::merge, in);
   const Records<double>& r = in.records;
+  const bool is_read_again = scene.frame.color != ColorFormat::rgba32f && !colors_replace(scene);
+  if (!is_read_again || r.drawn.size() != r.covered.size() || r.shaded.size() != r.covered.size()) return out;
   const DrawIndex draws(scene);
-  Plane<math::FrameColor> colors(scene.frame.width, scene.frame.height,
-                                 math::FrameColor(scene.frame, conventions.blending, conventions.color_rounding));
+  Plane<math::FrameColor> colors(
+      scene.frame.width, scene.frame.height,
+      math::FrameColor(scene.frame, conventions.blending, conventions.color_rounding, math::BlendedIn::floats));
   for (std::size_t i = 0; i < r.covered.size(); ++i) {
     const Covered& c = r.covered[i];
     const Draw* draw = r.drawn[i].drawn ? draws.draw(r.triangles.at(c.triangle).primitive) : nullptr;
@@ -260,8 +264,6 @@ Capture merge_rounded(Renderer& referee, const Scene& scene, const Capture& in, 
   }
   return out;
 }
-
-}  // namespace
 
 bool has_other_volume(const Conventions& conventions) { return conventions.clip_depth != C::ClipDepth::minus_w_to_w; }
 
@@ -305,12 +307,10 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
       return test_in_float(referee, scene, in);
     }
     case Stage::merge: {
-      const bool is_read_again = scene.frame.color != ColorFormat::rgba32f && !colors_replace(scene);
-      const bool has_drawn = r.drawn.size() == r.covered.size() && r.shaded.size() == r.covered.size();
       const bool is_opengls =
           conventions.color_rounding == C::Rounding::nearest && conventions.blending == C::Blending::in_float;
-      if (!is_read_again || !has_drawn || is_opengls) break;
-      return merge_rounded(referee, scene, in, conventions);
+      if (is_opengls) break;
+      return merge_in_float(referee, scene, in, conventions);
     }
     default: break;
   }

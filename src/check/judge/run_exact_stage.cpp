@@ -155,7 +155,8 @@ void run_exact_stage(const SceneJudgement& c, Renderer& referee, Stage stage, co
   if (stage >= Stage::depth && lacks_fragment_records(c.candidate))
     return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   Conventions by = c.foreign ? c.conventions : Conventions();
-  Capture made = run_by_conventions(referee, c.scene, stage, c.candidate, by);
+  Capture made = c.foreign && stage == Stage::merge ? merge_in_float(referee, c.scene, c.candidate, by)
+                                                    : run_by_conventions(referee, c.scene, stage, c.candidate, by);
   if (stage == Stage::depth && c.foreign && by.depth_corners == Conventions::DepthCorners::either) {
     by.depth_corners = Conventions::DepthCorners::snapped;
     Capture other = run_by_conventions(referee, c.scene, stage, c.candidate, by);

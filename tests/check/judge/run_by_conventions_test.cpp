@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "check/compare/compare_records.h"
+#include "check/judge/rows.h"
 #include "reference/exact/exact.h"
 #include "tests/check/fixtures.h"
 
@@ -117,6 +118,42 @@ TEST_F(ByConventions, StoredColorsAreRoundedAsDeclaredBeforeTheNextBlends) {
   EXPECT_EQ(made.planes.color(0, 0), scene.frame.clear_color);
   r.drawn = {{true}, {false}};
   EXPECT_NEAR(blue(C::Rounding::down, made), 34.527, 1e-3) << "what is written last is not rounded";
+}
+
+// Half of 21 codes, 10.5 and some 1e-7 in floats, is stored as 10 or as 11 by a stranger, and is read again.
+TEST_F(ByConventions, AStrangersSumHalfWayBetweenTwoCodesMayBeEither) {
+  add_square();
+  constexpr BlendTerm kHalf{BlendFactor::source_alpha, BlendFactor::one, BlendEquation::add};
+  scene.draws[0].merge.blend = Blend{kHalf, kHalf, glm::vec4(0)};
+  scene.draws[0].depth_func = DepthFunc::always;
+  scene.frame.clear_color = glm::vec4(0, 0, 0, 1);
+  Records<double>& r = candidate.records;
+  r.covered = {{0, 4, 2}, {1, 4, 2}};
+  r.depth = {0.5, 0.5};
+  r.shaded = {{glm::dvec4(21 / 255.0 + 1e-9, 0, 0, 0.5)}, {glm::dvec4(0, 0, 0, 1)}};
+  r.drawn = {{true}, {true}};
+  candidate.planes = exact->run_stage(scene, Stage::merge, candidate).planes;
+  const auto outcome = [&](float code, bool foreign) {
+    candidate.planes.color(4, 2).r = code / 255;
+    const Legal none;
+    std::vector<Comparison> out;
+    const Conventions conventions;
+    const SceneJudgement c{.scene = scene,
+                           .candidate = candidate,
+                           .legal = none,
+                           .referee = exact.get(),
+                           .rows = out,
+                           .foreign = foreign,
+                           .conventions = conventions};
+    run_exact_stage(c, *exact, Stage::merge, "exact");
+    return out.at(0).outcome;
+  };
+  EXPECT_NE(outcome(11, false), Outcome::different);
+  EXPECT_EQ(outcome(10, false), Outcome::different) << "ours blends in double";
+  EXPECT_NE(outcome(11, true), Outcome::different);
+  EXPECT_NE(outcome(10, true), Outcome::different);
+  EXPECT_EQ(outcome(9, true), Outcome::different);
+  EXPECT_EQ(outcome(12, true), Outcome::different);
 }
 
 // A fragment that is wrong by the rule is found, unless rounding decides where a corner is snapped to.

@@ -46,6 +46,26 @@ TEST(FrameColor, HalvesOnTheWayGoEitherWay) {
   EXPECT_EQ(color.written()[0].hi, 11 / 255.0);
 }
 
+// 10.5 codes and 1e-6: the lower code by double, either by the roundings of float, 255 times 8 of 2^-24 (1.2e-4).
+TEST(FrameColor, SumsNearAHalfGoEitherWayInFloat) {
+  const auto read = [](math::BlendedIn numbers, double code) {
+    FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(0)), Conventions::Blending::in_float,
+                     Conventions::Rounding::nearest, numbers);
+    color.write(blending(BlendFactor::one, BlendFactor::one), around(glm::dvec4(code / 255), 0));
+    color.write(blending(BlendFactor::zero, BlendFactor::one), around(glm::dvec4(1), 0));
+    return std::array{std::round(255 * color.written()[0].lo), std::round(255 * color.written()[0].hi)};
+  };
+  using Codes = std::array<double, 2>;
+  for (const double off : {1e-6, 1.2e-4}) {
+    EXPECT_EQ(read(math::BlendedIn::doubles, 10.5 - off), (Codes{10, 10}));
+    EXPECT_EQ(read(math::BlendedIn::doubles, 10.5 + off), (Codes{11, 11}));
+    EXPECT_EQ(read(math::BlendedIn::floats, 10.5 - off), (Codes{10, 11}));
+    EXPECT_EQ(read(math::BlendedIn::floats, 10.5 + off), (Codes{10, 11}));
+  }
+  EXPECT_EQ(read(math::BlendedIn::floats, 10.5 - 1.3e-4), (Codes{10, 10}));
+  EXPECT_EQ(read(math::BlendedIn::floats, 10.5 + 1.3e-4), (Codes{11, 11}));
+}
+
 TEST(FrameColor, WhatIsReadIsRoundedAsDeclared) {
   using enum Conventions::Rounding;
   const auto read = [](Conventions::Rounding rounding, double code) {
