@@ -167,6 +167,12 @@ TEST_F(BadScenes, WhatIsNoFileIsRefused) {
   refused("/dev/zero", "something that is not a file");
 }
 
+TEST_F(BadScenes, APartOfScenesIsNamedAsOne) {
+  EXPECT_EQ(message(root_ / "group/good.part.json"),
+            "@group/good.part.json: at \"/description\": expected a value, found nothing: the key is missing "
+            "(*.part.json is a part that scenes include)");
+}
+
 TEST_F(BadScenes, IncludesOfTooManyFilesAreRefused) {
   std::string names;
   for (int i = 0; i < 64; ++i) names += (i > 0 ? ", " : "") + std::string("\"good.part.json\"");

@@ -268,7 +268,8 @@ Scene load_scene(const fs::path& file, const SceneFileOptions& options) {
     scene.files = json.files();
     return scene;
   } catch (const JsonError& error) {
-    throw SceneError(error.what());
+    const bool is_part = file.stem().extension() == ".part";
+    throw SceneError(fmt::format("{}{}", error.what(), is_part ? " (*.part.json is a part that scenes include)" : ""));
   } catch (const fs::filesystem_error& error) {
     throw SceneError(fmt::format("{}: expected files that can be read, found: {}", file.string(), error.what()));
   }
