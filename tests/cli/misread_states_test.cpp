@@ -49,6 +49,8 @@ struct Case {
 const std::vector<Case> kStates = {{"matrices.depth_range_ignored", "depth_range/layers"},
                                    {"matrices.depth_range_stays", "depth_range/set_and_unset"},
                                    {"matrices.transforms_ignored", "cull/both_windings"},
+                                   {"vertex.normals_normalized", "light/normals_uneven"},
+                                   {"vertex.rescale_ignored", "light/normals_grown"},
                                    {"light.lighting_ignored", "light/turned_away"},
                                    {"light.lights_ignored", "light/turned_away"},
                                    {"light.ambient_ignored", "light/turned_away"},
@@ -113,6 +115,7 @@ const std::vector<Case> kStates = {{"matrices.depth_range_ignored", "depth_range
                                    {"merge.logic_op_ignored", "logic_op/sixteen_rgba12"},
                                    {"merge.logic_op_stays", "logic_op/set_and_unset"},
                                    {"merge.color_mask_stays", "masks/set_and_unset"},
+                                   {"merge.mask_blue_first", "masks/set_and_unset"},
                                    {"merge.clear_color_ignored", "depth/clear_z16"}};
 
 TEST(MisreadStates, are_named_by_their_stages_and_as_likely_faults) {

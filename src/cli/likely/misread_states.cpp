@@ -103,6 +103,9 @@ bool becomes_one(Draw& d) {
   return reset(d.merge.blend->alpha.*factor, BlendFactor::one) || rgb;
 }
 
+template <Normals from, Normals to>
+constexpr auto kNormals = [](Draw& d) { return d.lit && d.normals == from && reset(d.normals, to); };
+
 // Shininess times `factor`, in [0, 128].
 auto shines_by(float factor) {
   return of_materials([factor](Material& m) {
@@ -200,6 +203,10 @@ std::vector<MisreadState> all_states() {
        stays([](Draw & d) -> auto& { return d.depth_range; })},
       {"matrices", "transforms_ignored", "draws are not moved, turned or scaled",
        of_draws([](Draw& d) { return !std::exchange(d.transforms, {}).empty(); })},
+      {"vertex", "normals_normalized", "normals are brought to unit length, though they are to stay as they are",
+       of_draws(kNormals<Normals::as_they_are, Normals::normalize>)},
+      {"vertex", "rescale_ignored", "normals stay as they are, though they are to be scaled back",
+       of_draws(kNormals<Normals::rescale, Normals::as_they_are>)},
       {"light", "lighting_ignored", "draws are not lit", of_draws([](Draw& d) { return reset(d.lit, false); })},
       {"light", "lights_ignored", "no light shines but the ambient one",
        [](Scene& s) { return !std::exchange(s.lights, {}).empty(); }},
@@ -315,6 +322,11 @@ std::vector<MisreadState> all_states() {
        stays([](Draw & d) -> auto& { return d.merge.logic_op; })},
       {"merge", "color_mask_stays", "a draw that writes all channels writes those of the draw before",
        stays([](Draw & d) -> auto& { return d.merge.color_mask; })},
+      {"merge", "mask_blue_first", "the mask of red is taken for that of blue, and the other way round",
+       of_draws([](Draw& d) {
+         std::swap(d.merge.color_mask.r, d.merge.color_mask.b);
+         return d.merge.color_mask.r != d.merge.color_mask.b;
+       })},
       {"merge", "blend_factors_ignored", "blending is by the source's alpha, whatever the factors",
        of_draws(kBlendsByAlpha)},
       {"merge", "source_factor_of_one", "blending adds the source's colour as it is, whatever its factor",
