@@ -25,7 +25,7 @@ struct Roundings {
   }
 };
 
-/// A number, and a bound on the absolute error of another renderer's.
+/// A number, with a bound on the absolute error of another renderer's value for it.
 struct Bounded {
   double value = 0, error = 0;
 };
@@ -35,8 +35,8 @@ struct BoundedFour {
   double bound = 0;
 };
 
-/// Largest difference of two unit vectors [length], one of a vector, one of the same off by `ratio` of its length: the
-/// chord 2 sin(asin(ratio) / 2) of their angle. From 1 on 2: no direction is certain.
+/// Largest distance [length] between the unit vectors of v and of v + d, |d| <= ratio |v|: the chord 2 sin(asin(ratio)
+/// / 2) of their angle. 2 for a ratio of 1 or more: no direction is certain.
 inline double chord(double ratio) {
   if (!(ratio < 1)) return 2;
   return ratio * std::sqrt(2 / (1 + std::sqrt(1 - ratio * ratio)));

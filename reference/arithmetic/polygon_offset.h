@@ -9,8 +9,8 @@ namespace plumbline::math {
 /// `largest_z` to the next one. For codes OpenGL leaves it open: as many codes as the conventions' offset_unit.
 long double offset_unit(DepthFormat format, const Conventions& conventions, double largest_z);
 
-/// The offset of a triangle, all else of which project() has set up; `half` is infinite where the triangle has no
-/// reliable plane. r of unorm formats is that of the conventions.
+/// Offset of a triangle whose other members project() has set. `half`: infinite where the triangle has no reliable
+/// plane. r of formats with codes: by the conventions.
 OffsetBounds polygon_offset(const Projected& scene, const Triangle& triangle, const PolygonOffset& offset);
 
 }  // namespace plumbline::math

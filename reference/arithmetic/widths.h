@@ -10,8 +10,8 @@
 
 namespace plumbline::math {
 
-/// Most corners of a triangle cut by six planes: exactly 9, but where rounding makes a polygon of huge coordinates
-/// cross a plane many times, each plane may leave half as many again: 3, 4, 6, 9, 13, 19, 28.
+/// Most corners of a triangle cut by six planes. 9 in exact arithmetic; but where rounding makes a polygon of huge
+/// coordinates cross a plane many times, each plane may leave half as many again: 3, 4, 6, 9, 13, 19, 28.
 inline constexpr std::size_t kMostCorners = 28;
 
 /// Smallest altitude of a triangle [pixels]: twice its area over its longest side; 0 where all corners coincide.
@@ -25,7 +25,7 @@ inline double altitude(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 struct Widths {
   double whole;   ///< the polygon's width: its smallest extent across any direction
   double pieces;  ///< the smallest altitude of any triangle of its corners
-  double fat;     ///< and of those above `thin`
+  double fat;     ///< the smallest of these altitudes that is above `thin`
 };
 /// Widths of the polygon of the first `count` corners. `thin`: altitudes up to it do not count for Widths::fat.
 inline Widths widths(const std::array<glm::dvec2, kMostCorners>& p, std::size_t count, double thin) {

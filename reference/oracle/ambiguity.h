@@ -11,8 +11,9 @@
 
 namespace plumbline::math {
 
-/// Predicted number of pixels that are ambiguous by edges: the area of the bands within delta of all visible edges, or
-/// the number of centres in these bands, whichever is larger. `id`: the winners in double.
+/// Predicted number of pixels that are ambiguous by edges: the area [pixels] of the bands within displacement()
+/// (project.h) of all visible edges, or the number of pixel centres in these bands, whichever is larger. `id`: the
+/// winners in double.
 double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id);
 
 /// One pixel's share of the bands along the lines where surfaces meet each other, or the near or far plane.

@@ -31,8 +31,8 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
 /// alone do not fit.
 std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget);
 
-/// The legal answers of a scene by the request's conventions, with triangles found by boxes and by edges, without rays.
-/// Where the request names pixels, those of these pixels; elsewhere the background is the only answer. Throws
+/// Legal answers of a scene by the request's conventions, with triangles found by boxes and by edges, without rays. If
+/// the request names pixels: the answers at these pixels; at any other pixel the background is the only answer. Throws
 /// OverBudget.
 Legal legal_by_boxes(const Scene& of_dialect, const Request& request);
 

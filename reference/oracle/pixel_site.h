@@ -1,4 +1,4 @@
-// A triangle where a pixel's ray meets it: what its coverage, depth and colour there are computed from.
+// Pixel site: a triangle at one pixel's ray, with the quantities that its coverage, depth and colour are computed from.
 #pragma once
 
 #include <array>
@@ -26,7 +26,8 @@ struct EdgeDistance {
 /// `n`: v_j x v_k.
 EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d);
 
-/// Functions of `certain` take whether every legal renderer covers the pixel by the triangle's inside.
+/// A triangle at one pixel's ray. Parameter `certain` of the functions: whether every legal renderer covers the pixel
+/// with the inside of the triangle.
 class PixelSite {
  public:
   PixelSite(const Projected& scene, const Triangle& triangle, int px, int py);

@@ -19,14 +19,15 @@ using WindowCorners = std::array<glm::dvec3, 3>;
 /// edges nearly all of e_i and of A cancels. Infinite without area.
 double error_by_edge_functions(const WindowCorners& corners, glm::dvec2 p);
 
-/// Error of z_0 + dz/dx x + dz/dy y at p [u of window z], z_0 at the window's origin: 4 u of the three terms'
-/// magnitudes at p and at the farthest corner, and the gradients' error over p's distance from the corners.
+/// Error of z_0 + dz/dx x + dz/dy y at p [u of window z], z_0 at the window's origin: 4 u of (the largest |z_i|, plus
+/// the gradients' terms at p and at the farthest corner, plus the gradients' error times p's distance from the
+/// corners).
 double error_by_plane(const WindowCorners& corners, glm::dvec2 p);
 
 /// Error of a x + b y + c at p [u of window z], where a = sum z_i a_i / A, likewise b and c, and A = sum c_i; each c_i
-/// is x_j y_k - x_k y_j, whose terms are |x_j y_k| + |x_k y_j|. Five roundings on each way (difference, product,
-/// quotient, two sums), both ways: 10 u of (sum |z_i| (|a_i x| + |b_i y| + c_i's terms) + |z| sum of c_i's terms) / A.
-/// Small triangles far from the origin lose most.
+/// is x_j y_k - x_k y_j, whose terms are at most t_i = (|x_j| + |x_k|) (|y_j| + |y_k|). Five roundings on each way
+/// (difference, product, quotient, two sums), both ways: 10 u of (sum |z_i| (|a_i x| + |b_i y| + t_i) + |z| sum t_i) /
+/// |A|. Small triangles far from the origin lose most.
 double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
 /// Error at p, besides a plane's, of z that is stepped there from a corner [u of window z]: along an edge from row to
@@ -39,16 +40,18 @@ double error_by_steps(const WindowCorners& corners, glm::dvec2 p);
 /// in_float_from_origin: the largest of the first three.
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
 
-/// Sum of the errors of the corners' shares at p (window barycentrics): each is the depth of a plane that is 1 at one
+/// Sum of the errors of the three window barycentrics at p: each barycentric is bounded as a depth that is 1 at one
 /// corner and 0 at the others.
 double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
 
-/// Error of an attribute, of at most `most` at the corners, whose numerator and denominator are planes of their own:
-/// `shares` is shares_error(), times the largest corner's 1/w over the pixel's. Infinite from 1 on.
+/// Error of an attribute whose numerator and denominator are planes of their own. `most`: largest absolute value at the
+/// corners. `shares`: shares_error() times the corners' largest 1/w over the pixel's 1/w. Infinite if `shares` is 1 or
+/// more.
 double attribute_error(double shares, double most);
 
-/// Bound of depth_error() for every triangle within a window [pixels], of altitudes of at least `altitude` [pixels],
-/// whose depths change by `slope` [window z per pixel] or less: at most 2 / altitude, what any such triangle's do.
+/// Bound of depth_error() over all triangles within a window [pixels] whose altitudes are at least `altitude` [pixels]
+/// and whose depth gradients are at most `slope` [window z per pixel]. A `slope` above 2 / altitude counts as 2 /
+/// altitude: no such triangle is steeper.
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window);
 
 }  // namespace plumbline

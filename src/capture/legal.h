@@ -18,9 +18,9 @@
 
 namespace plumbline {
 
-inline constexpr std::int32_t kBackground = -1;  ///< in the place of a primitive: the cleared frame shows
+inline constexpr std::int32_t kBackground = -1;  ///< primitive number of a pixel that shows the cleared frame
 
-/// In the place of a surface: one whose depth equals no other's for certain.
+/// Surface number of a hit whose depth is not certain to equal any other hit's.
 inline constexpr std::int32_t kNoSurface = -1;
 
 /// One triangle at one pixel.
@@ -94,8 +94,8 @@ class LegalFold {
 /// formats with codes, for the end that less_equal (1) or greater_equal (0) cannot fail over. `out` is emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
-/// Legal texels of a fragment: its level of detail may be taken for four pixels together, by a logarithm that is linear
-/// between powers of two (as Mesa's drivers do), and its texture coordinates may be off by a little.
+/// Legal texels of a fragment: the level of detail may be computed for four pixels together, with a logarithm that is
+/// linear between powers of two (as in Mesa's drivers), and the texture coordinates may have a small error.
 struct TexelRange {
   glm::dvec4 lo{0}, hi{0};                                  ///< per channel, over the interval of lambda
   glm::dvec4 slope_s{0}, slope_t{0};                        ///< by how much per unit of s and of t, within half a texel
@@ -108,16 +108,16 @@ struct TexelRange {
 /// The legal answers of a whole frame. Empty: not asked for, or not shown.
 struct Legal {
   Plane<std::uint32_t> certain;   ///< number of certain hits at the pixel; a group counts as one
-  Plane<std::uint32_t> possible;  ///< and of all hits: count must lie within [certain, possible]
+  Plane<std::uint32_t> possible;  ///< number of all hits; planes.count must lie in [certain, possible]
   /// 1 where the sample lies on edges that several triangles share, or so near to them that snapping decides: by any
   /// tie rule, exactly one of these triangles covers the pixel (one per layer where they overlap).
   Plane<std::uint8_t> shared;
   std::vector<std::uint32_t> first;  ///< pixel y * width + x has answers [first[i], first[i + 1])
   std::vector<LegalAnswer> answers;
-  /// The frame's colour, not rounded to codes; empty where it is that of the winner (scene.h, colors_replace). Infinite
-  /// where it is open which fragments made it.
+  /// Interval of the frame's colour, not rounded to codes; empty where the colour is the winner's (scene.h,
+  /// colors_replace). Infinite where it is open which fragments made the colour.
   Plane<glm::vec4> color_lo, color_hi;
-  std::vector<TexelRange> texels;  ///< of the fragments that were asked about, beside their covered
+  std::vector<TexelRange> texels;  ///< of the fragments asked about, parallel to records.covered
   double predicted_ambiguous = 0;  ///< expected number of pixels that edges (snapping bound) or depths leave open
 
   bool empty() const { return first.empty(); }

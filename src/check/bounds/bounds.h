@@ -1,5 +1,5 @@
-// Error bounds, from the number format and the formula: what a stage in float arithmetic may differ by from the same
-// formula in double. u = 2^-24 is the unit roundoff of float. Factors stand in the ledger.
+// Error bounds, from the number format and the formula: largest difference between a stage's formula in float and the
+// same formula in double. u = 2^-24 is the unit roundoff of float. The factors are in the ledger.
 #pragma once
 
 #include <span>
@@ -24,14 +24,14 @@ Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
 /// Magnitude of a unit normal N n / |N n|: the length of |N| |n| over the length of N n.
 double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 
-/// For a renderer that inverts the model-view M in float, as Mesa does: length of |N| |M|^T |N| |n| over the length of
-/// N n. An error e |M| of M moves the unit normal by e times that.
+/// Magnitude of a unit normal for a renderer that inverts the model-view M in float, as Mesa does: length of |N| |M|^T
+/// |N| |n| over the length of N n. An error e |M| of M moves the unit normal by e times this magnitude.
 double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n);
 
 /// Error bounds of a plane's value at a pixel centre: of depth, and of the colour's four channels.
 struct PlaneBounds {
   double depth;        ///< [u of window z]
-  Vec4<double> color;  ///< [u], to first order: of 1/w too little where `inv_w` is large
+  Vec4<double> color;  ///< [u], to first order; too small where `inv_w` is large: color_error() is not
   double inv_w = 0;    ///< relative error of the interpolated 1/w [u]
   /// Line: value interpolated by the position on the major axis, as by llvmpipe, less the value at the centre's
   /// projection onto the line (OpenGL 2.1, equation 3.5); signed [window z; colour].
@@ -49,18 +49,20 @@ struct DepthLimits {
 };
 DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive);
 
-/// For a renderer that evaluates a = a0 + da/dx x + da/dy y in float from the window's origin, as llvmpipe does:
-/// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0, y0 the triangle's farthest corner, and the gradients' own error,
-/// by the inverse of the area, times the distance from the corners; for colour the same of c/w and of 1/w, joined by
-/// the division: (E(c/w) + |c| E(1/w)) w. Line: the larger bound of both interpolations (PlaneBounds), which differ
-/// where 1/w differs much between the ends. Flushing of gradients and results to zero is included.
+/// Bounds for a renderer that evaluates a = a0 + da/dx x + da/dy y in float from the window's origin, as llvmpipe does:
+/// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0 and y0 the corners' largest |x| and |y|, plus the gradients' own
+/// error, which grows with the inverse of the area, times the distance from the corners. Colour: such bounds E of c/w
+/// and of 1/w, joined by the division: (E(c/w) + |c| E(1/w)) w. Line: the larger bound of both interpolations
+/// (PlaneBounds), which differ where 1/w differs much between the ends. Flushing of gradients and results to zero is
+/// included. Infinite where area_may_vanish().
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
-/// The largest over a primitive's triangles, at least 1.
+/// Bounds for a primitive: the largest over all of its window triangles, whether they cover the pixel or not, at least
+/// 1. Line shifts: those of the edge nearest to the pixel's centre.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
                              const DepthLimits& limits = {});
 
-/// Whether a renderer that finds the area of its corners in float, two differences a product, may find 0: then its
-/// planes are undefined.
+/// Whether a renderer that computes a triangle's area from its corners in float may find 0; the planes are then
+/// undefined.
 bool area_may_vanish(const WindowTriangle<double>& triangle);
 
 /// Whether a pixel's centre is in the triangle or beside it: no barycentric below -1/64.
@@ -70,16 +72,16 @@ bool is_near(const WindowTriangle<double>& triangle, int x, int y);
 std::span<const WindowTriangle<double>> triangles_of(const Records<double>& records, std::int32_t primitive);
 
 /// Error that a polygon offset adds to a depth [u of window z], for a renderer that computes the slope in float and
-/// offsets the corners: |factor| times (error of the slope, as bounds_from_origin's of a gradient, + 4 roundings of
-/// it), and 2 roundings of the offset.
+/// offsets the corners: |factor| times (the error of a gradient in bounds_from_origin(), plus 4 times the slope), plus
+/// 2 times the offset.
 class OffsetErrors {
  public:
   explicit OffsetErrors(const Scene& scene, const Conventions& conventions = {});
   double of(const WindowTriangle<double>& triangle) const;
   /// The largest over a primitive's triangles.
   double of(const Records<double>& records, std::int32_t primitive) const;
-  /// Offset by the length of the depth's gradient less that by its larger component, both legal (OpenGL 2.1 spec
-  /// 3.5.5) [window z].
+  /// Offset with the slope as the length of the depth's gradient, minus the offset with the slope as the gradient's
+  /// larger component; both are legal (OpenGL 2.1 spec 3.5.5) [window z].
   double by_length(const WindowTriangle<double>& triangle) const;
 
  private:
@@ -88,8 +90,9 @@ class OffsetErrors {
   bool any_;  // whether any draw has an offset
 };
 
-/// Values that a pixel may hold where edges of an unfilled triangle meet: two per edge no farther from the centre than
-/// its width plus two pixels, by projection and by the position on the major axis. Empty for fewer than two such edges.
+/// Values that a pixel may hold where edges of an unfilled triangle meet: two for each edge whose distance from the
+/// pixel's centre is at most the edge's width plus two pixels, by projection and by the position on the major axis.
+/// Empty for fewer than two such edges.
 struct EdgeValue {
   double depth;
   Vec4<double> color;

@@ -46,7 +46,8 @@ class FragmentsByPixel {
 /// Bounds of the difference between both sides' colours, per channel. Only plain draws have `line_shift` and `apart`.
 struct FragmentBound {
   Vec4<double> color{0};  ///< error of the reference's arithmetic (not plain: all errors); infinite: no bound
-  /// Shift of a line's colour: PlaneBounds::line_shift_color; from of_fragment(), or that to another edge's colour.
+  /// Shift of a line's colour. of_winner(): PlaneBounds::line_shift_color, signed. of_fragment(): the larger of its
+  /// absolute value and of the distance to another edge's colour.
   Vec4<double> line_shift{0};
   Vec4<double> apart{0};    ///< errors of vertex colours, of cuts and of the candidate's interpolation
   std::string_view reason;  ///< why a larger difference is the reference's fault; empty: it is not

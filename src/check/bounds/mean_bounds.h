@@ -21,12 +21,12 @@ Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y
 /// roundings of 2^-53. With slopes of 1 a pixel 1e-13; with slopes of 10^7 (slivers beside the eye) a step of z24.
 double depth_rounding(const WindowTriangle<double>& triangle);
 
-/// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
-/// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
-/// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|), and what double arithmetic leaves of a
-/// share that is 0. Where q changes little within blocks of 4 x 4 pixels, it may be evaluated in float there: 4 u of
-/// what q_i changes by, and of |k_i| times what the sum changes by, by the sum (kernels/attributes.h,
-/// changes_little).
+/// Error of a colour c that is a weighted mean of corners (as the pipeline computes it, and any renderer that works
+/// near the triangle), per channel [10 u]: c = c0 + k1 (c1 - c0) + k2 (c2 - c0), k_i = q_i / sum q. The weights have an
+/// error of 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two sums of 2 u: (|c| + |c0|) / 5 + condition
+/// * (|k1| |c1 - c0| + |k2| |c2 - c0|), plus the rounding in double of a share k_i that is nearly 0. Where q changes
+/// little within blocks of 4 x 4 pixels, q may be evaluated in float there: k_i has 4 u (dq_i + |k_i| dq) / |sum q|
+/// more, dq_i and dq the changes of q_i and of the sum within a block (kernels/attributes.h, changes_little).
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
 
 }  // namespace plumbline::check

@@ -22,15 +22,15 @@ bool tests_alpha(const Scene& scene);
 /// pixel may be of a primitive. False where legal colours are not those of the winners (Legal::color_lo).
 bool may_be_empty(const Legal& legal);
 
-/// 1 where some fragment of the candidate's, with an alpha off by up to its bound (fragment_bounds.h), may pass the
-/// test in the format `theirs` and fails it in the candidate's, or the other way round; and where the reference alone
-/// has a fragment. Needs the candidate's records.
+/// 1 where the alpha test in the format `theirs` may come out otherwise than the candidate's own, for a fragment of the
+/// candidate with an alpha off by up to its bound (fragment_bounds.h); and where the reference has more fragments than
+/// the candidate. Needs the candidate's records.
 Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   ColorFormat theirs, double factor);
 
-/// 1 where some fragment's depth is so near to the depth that the frame held that the bounds of compare_depth_planes,
-/// and interpolation along a line's major axis (bounds.h), let its depth test come out otherwise, even if a later
-/// fragment hides it. Needs the candidate's records of stages 4, 5, 6 and 10; without them nothing is open.
+/// 1 where the depth test of some fragment may come out otherwise, within the bounds of compare_depth_planes() and by
+/// interpolation along a line's major axis (bounds.h), even if a later fragment hides that fragment. Needs the
+/// candidate's records of stages 4, 5, 6 and 10; without these records nothing is open.
 Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
 
 /// 1 where two depths of the candidate's fragments, or of a fragment and the cleared frame, are different doubles and
@@ -55,9 +55,9 @@ class LegalWinners {
   FragmentsByPixel fragments_;
 };
 
-/// Both sides' coverage without the primitives `turned`, which each side may legally draw as another face
-/// (legal_window.h, turned_outlines); `open` is 1 where they cover a pixel on either side. `referee` computes what they
-/// cover, except the reference's lines, for which the reference's own records count.
+/// Coverage of both sides without the primitives `turned`, which each side may legally draw as another face
+/// (legal_window.h, turned_outlines). `open`: 1 where a turned primitive covers the pixel on either side. `referee`
+/// computes the coverage of turned primitives; for lines of the reference, the reference's own records count.
 struct BesideTurned {
   /// Planes count and id_sum without `turned`; all records of window (`turned` with `corners` 0) and of coverage.
   Capture candidate, reference;
@@ -73,9 +73,9 @@ std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& ca
 /// sides have one entry per fragment of the candidate.
 void copy_open_drawn(const Plane<std::uint8_t>& open, const Records<double>& candidate, Records<double>& reference);
 
-/// copy_open_pixels() where open_by_alpha() finds a pixel open against an OpenGL reference. That tests alpha in codes
-/// for the frame of rgba8; in float for other formats and for the frames of stages attributes and shade. Returns the
-/// number of open pixels.
+/// copy_open_pixels() at pixels that open_by_alpha() finds open against an OpenGL reference. The reference tests alpha
+/// in codes for rgba8 frames; in float for other formats, and for the frames of stages attributes and shade. Returns
+/// the number of open pixels.
 std::uint64_t copy_pixels_open_by_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
                                         Capture& reference);
 

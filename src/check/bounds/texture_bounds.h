@@ -1,4 +1,4 @@
-// Textures: how far a texel may be off, and what that comes to in the fragment's colour.
+// Error bounds of texels, and of the colours that a texture environment makes of them.
 #pragma once
 
 #include <string_view>
@@ -19,9 +19,9 @@ struct TexelBound {
   TexelRange range;
   Vec4<double> slack{0};  ///< from errors of the texture coordinates and of filtering; infinite: any texel is legal
 };
-/// Bound of a texel. `st_error`: error of the texture coordinates `st`, to which 4 u of |st| are added for the texel
-/// coordinates; `arithmetic`: error of the texel itself. The texel is open (slack infinite) where that sum is not 0 and
-/// reaches range.gap, the distance to where another texel is the nearest, or where it is half a texel or more of a
+/// Bound of a texel. Coordinate error e: `st_error`, the error of the texture coordinates `st`, plus 4 u of |st| for
+/// the texel coordinates. `arithmetic`: error of the texel itself. The texel is open (slack infinite) where e is not 0
+/// and reaches range.gap, the distance to where another texel is the nearest, or where e is half a texel or more of a
 /// level that may be filtered linearly: the range holds slopes only within half a texel.
 TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<double> st, Vec2<double> st_error,
                        double arithmetic);
@@ -34,7 +34,7 @@ TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<dou
 /// triangle's corners, because the fragment's record is what is judged.
 struct OpenShare {
   double area = 0;      ///< pixels, [0,1]
-  bool centre = false;  ///< whether its centre is in one
+  bool centre = false;  ///< whether the pixel's centre is in a band
 };
 OpenShare open_share(const Texture& texture, const TexelRange& range, const PlaneValue& plane, Vec2<double> st_error);
 
@@ -44,9 +44,8 @@ OpenShare open_share(const Texture& texture, const TexelRange& range, const Plan
 /// min_lod or max_lod is such a lambda.
 std::string_view mesas_other_level(const Texture& texture, const TexelRange& range);
 
-/// The colour that fragment colour `f` and texel `s` become, and its error, where theirs are f_error and s_error:
-/// |d/df| f_error + |d/ds| s_error + their product, and the `roundings` of the terms (OpenGL 2.1 spec,
-/// tables 3.22, 3.23).
+/// Result of the texture environment for fragment colour `f` and texel `s`, with its error: |d/df| f_error + |d/ds|
+/// s_error + the product of both errors, plus the `roundings` of the terms (OpenGL 2.1 spec, tables 3.22, 3.23).
 struct Environed {
   Vec4<double> color, error;
 };

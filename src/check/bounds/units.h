@@ -23,7 +23,8 @@ inline double to_float(double value) {
   return static_cast<double>(rounded);
 }
 
-/// Whole part of a record's number as an int, which another renderer's may not fit: at most 2^30, NaN as -2^30.
+/// floor(value) as an int, clamped to [-2^30, 2^30]; NaN becomes -2^30. Numbers of another renderer's records may not
+/// fit an int.
 inline int whole_in_range(double value) {
   constexpr double kMost = 0x1p30;
   return static_cast<int>(std::floor(std::fmin(std::fmax(value, -kMost), kMost)));
@@ -50,7 +51,8 @@ inline double ulp(double value) {
   return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
 }
 
-// All entries of two vectors, the difference in units of `unit[c]`. `allowance`: as Meter's, in the entries' own unit.
+// Adds all entries of two vectors to the meter, each difference in units of unit[c]. `allowance`: as in Meter::value(),
+// but in the entries' own unit.
 template <int n>
 void add(Meter& meter, const glm::vec<n, double>& a, const glm::vec<n, double>& b, const glm::vec<n, double>& unit,
          double factor, const Place& place, const glm::vec<n, double>& allowance = glm::vec<n, double>(0)) {
@@ -77,8 +79,8 @@ inline const LegalAnswer* answer_of_winner(const Legal& legal, const Planes& pla
   return nullptr;
 }
 
-// The answers that a pixel's depth and colour are held to: its winner's, or all where no winners are shown. None: its
-// winner is not legal.
+// Legal answers that a pixel's depth and colour are compared with: the answer of the pixel's winner, or all answers
+// where the planes show no winners. Empty: the winner is not legal.
 inline std::span<const LegalAnswer> answers_of_winner(const Legal& legal, const Planes& planes, int x, int y) {
   if (planes.id.empty()) return legal.at(x, y);
   const LegalAnswer* own = answer_of_winner(legal, planes, x, y);
@@ -117,7 +119,8 @@ inline void finite_value(Meter& meter, double value, const Place& place) {
   meter.value(std::isfinite(value) ? 0 : kInfinite, 0, place, value, 0);
 }
 
-// No bound can be computed (a triangle of no area): any number is legal, and none is proven.
+// Adds a value for which no bound can be computed (a triangle without area): any finite number is legal, and the item
+// counts as ambiguous.
 inline void open_value(Meter& meter, double value, const Place& place, double reference) {
   meter.ambiguous();
   meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);

@@ -54,8 +54,8 @@ double distance_between(const ClipVertex<double>& a, const ClipVertex<double>& b
   return std::sqrt(dot(apart, apart));
 }
 
-// A vertex on the plane is a weighted mean of the corners: what is left of it without the triangle's two directions
-// (Gram-Schmidt).
+// Largest coordinate of v - corner 0 after its components along the triangle's two directions are removed
+// (Gram-Schmidt): 0 on the plane, whose points are weighted means of the corners.
 double distance_from_triangle(const ClipVertex<double>& v, const Corners& c) {
   const Vec8 origin = corner_of(c, 0);
   Vec8 e1 = minus(corner_of(c, 1), origin), e2 = minus(corner_of(c, 2), origin);

@@ -7,10 +7,10 @@
 
 namespace plumbline::check {
 
-/// Colours, in steps of the format (of float: in numbers).
+/// Compares colours [steps of the format; float formats: the values' own unit].
 Measurement compare_color_bits(const Plane<glm::vec4>& candidate, const Plane<glm::vec4>& reference,
                                ColorFormat format);
-/// Depths, in steps of the format (of float: in window z).
+/// Compares depths [steps of the format; float formats: window z].
 Measurement compare_depth_bits(const Plane<double>& candidate, const Plane<double>& reference, DepthFormat format);
 
 /// The finished frame: colour, depth, and stencil values where the format has them. The worst of the three planes.

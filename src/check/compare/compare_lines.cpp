@@ -62,7 +62,7 @@ Rest without(const LinesOfPixels& lines, const Planes& planes) {
 
 int distance(glm::ivec2 a, glm::ivec2 b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)); }
 
-// What a line covers of one column (y-major: row).
+// Pixels of one column (y-major line: row) that a line covers: the ends and the count.
 struct Column {
   int low, high, count;
 };
@@ -76,7 +76,8 @@ std::map<int, Column> columns_of(const std::vector<glm::ivec2>& pixels, int majo
   return columns;
 }
 
-// Distance of a pixel from the line's pixels, where they are given by columns; without columns, from its end points.
+// Distance [pixels, larger of x and y] of `pixel` from the nearest pixel in `columns`; if there are no columns, from
+// the nearer end point of the line.
 int deviation(glm::ivec2 pixel, const std::map<int, Column>& columns, const WindowTriangle<double>& line, int major) {
   int nearest = std::numeric_limits<int>::max();
   for (std::size_t i = 0; columns.empty() && i < 2; ++i) {

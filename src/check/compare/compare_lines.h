@@ -7,18 +7,20 @@
 
 namespace plumbline::check {
 
-/// Coverage of lines by the first three rules of OpenGL 2.1, section 3.4.1, against the candidate's. Per line:
-/// - each pixel is at most `factor` off, in x and y, from the candidate's in its column (y-major: row; or the nearest);
-/// - at most `factor` columns more or fewer;
+/// Compares coverage of lines by the first three rules of OpenGL 2.1, section 3.4.1. Column: a line's pixels of one x
+/// (y-major line: a row, of one y). Per line, on each side:
+/// - a column of both sides: both ends at most `factor` pixels from the other side's; a pixel of any other column: at
+///   most `factor` pixels, in x and in y, from the other side's nearest pixel;
+/// - at most `factor` columns more or fewer than the other side;
 /// - one pixel per column; of a wide line (3.4.2) a run of `width` pixels, which the frame or scissor box may cut.
-/// Where snapping decides the major axis of a wide line, only the first is checked, and `width` more is allowed.
+/// Where snapping decides the major axis of a wide line, only the nearest pixels are checked, `width` more is allowed.
 /// Lines whose pixels differ are ambiguous. Everything else that covers a pixel must be equal.
 Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   double factor);
 
-/// Winners, and stencil values, of scenes with lines or points. A difference is ambiguous where the two sides cover the
-/// pixel with different primitives, which coverage judges, and where both are legal by the candidate's earlier records
-/// (open_pixels.h, LegalWinners).
+/// Compares winners and stencil values of scenes with lines or points. A difference is ambiguous where the two sides
+/// cover the pixel with different primitives (coverage judges these), and where both sides' winners are legal by the
+/// candidate's earlier records (open_pixels.h, LegalWinners).
 Measurement compare_line_or_point_winners(const Scene& scene, const Capture& candidate, const Capture& reference);
 
 }  // namespace plumbline::check

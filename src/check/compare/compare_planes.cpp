@@ -32,7 +32,8 @@ Vec4<double> codes_of(const Vec4<double>& color, double scale) {
   return glm::roundEven(glm::clamp(color, 0.0, 1.0) * scale);
 }
 
-// A clear colour's product in float may be rounded onto the half between two codes: how many codes off that is.
+// Codes by which a reference's clear colour may be off: 1 where the float product of colour and scale may be rounded to
+// the middle between two codes, else 0.
 double cleared_codes(const FrameFormat& frame, int channel) {
   const double scale = color_scale(frame.color), code = scale * static_cast<double>(frame.clear_color[channel]);
   return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? 1 : 0;
@@ -53,8 +54,8 @@ std::string code_unit(const FrameFormat& frame) {
   return scale > 0 ? fmt::format("1/{:.0f}", scale) : "u";
 }
 
-// Whether different fragments cover a pixel on the two sides, as of lines by other rules; coverage judges that. The
-// count is compared, too, because primitive 0 has weight 0 in the sum.
+// Whether the two sides cover a pixel with different fragments, as where they draw lines by different rules; coverage
+// judges such pixels. Counts are compared as well as sums, because primitive 0 has weight 0 in the sum.
 class OthersCover {
  public:
   OthersCover(const Planes& a, const Planes& b) : a_(a), b_(b) {
@@ -110,9 +111,10 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
 
 namespace {
 
-// Depths that another renderer may hold beneath a winner that writes none (depth_mask off): the values and bounds of
-// the fragment that left the candidate's depth, and, where a depth test is open (open_pixels.h), those of fragments
-// that tie with it. With a stencil test at the pixel all fragments count: which ones it keeps depends on those before.
+// Depths that another renderer's frame may hold where the winner writes no depth (depth_mask off): the values of the
+// fragment that left the candidate's depth, and, where a depth test is open (open_pixels.h), the values of fragments
+// that tie with that fragment. With a stencil test at such a pixel every fragment counts as tied, because the outcome
+// of a stencil test depends on the fragments before.
 class DepthsBeneath {
  public:
   DepthsBeneath(const Scene& scene, const Capture& candidate, const DrawIndex& draws)
@@ -124,7 +126,7 @@ class DepthsBeneath {
     known_ = records_.drawn.size() == records_.covered.size() && records_.depth.size() == records_.covered.size();
     if (known_ && !records_.covered.empty()) open_ = open_by_depth(scene, candidate);
   }
-  // visit(depth - z, bound [u]) for each such depth, where a fragment left z.
+  // Calls visit(depth - z, bound [u]) for each such depth, if a fragment or the clear value left z.
   template <class Visit>
   void each(int x, int y, double z, double factor, Visit visit) const {
     if (!known_) return;
@@ -193,7 +195,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
   const DrawIndex draws(scene);
   const DepthsBeneath beneath(scene, candidate, draws);
   const OthersCover others_cover(a, b);
-  // Another fragment, which the winner leaves in place, may have left its depth.
+  // Whether the depth may be left by a fragment beneath the winner that only one side has.
   const auto others_left_it = [&](int x, int y) { return !depths_replace(scene) && others_cover(x, y); };
   return where_winners_agree(a, b, &Planes::depth, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const double z = a.depth(x, y), z_ref = b.depth(x, y);
@@ -238,7 +240,8 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
       double diff = std::min(difference(v, w), difference(v + bound.line_shift[c], w));
       for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
       const bool is_open = !std::isfinite(bound.color[c]);
-      // A plane without area comes to 0 / 0 in the reference, which says nothing of the candidate.
+      // NaN of the reference is no evidence about the candidate: the reference computes 0 / 0 for a triangle without
+      // area.
       if (is_open && std::isnan(w) && std::isfinite(v)) {
         meter.ambiguous();
       } else if (is_open) {
@@ -315,8 +318,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
       certain = certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
                 codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);
     });
-    // A fragment's error enters as source colour, as a factor of that, and as a factor of the frame's colour, which is
-    // at most 1, or in float the number of fragments.
+    // Error of a fragment enters three times: as source colour, in the source's factor, and in the factor of the
+    // frame's colour, which is at most `held` (1; in float the number of fragments).
     const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
     bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
     combined = combined && scale > 0;

@@ -41,8 +41,8 @@ Corners corners_of(const DrawIndex& draws, std::uint32_t primitive, const Record
   return out;
 }
 
-// Planes with an ambiguous cut: a corner lies on the plane, or an edge of the polygon passes through an intersection of
-// planes.
+// Marks in `open` the clip planes with an ambiguous cut: a corner of the triangle lies on the plane, or a vertex of the
+// polygon lies on the plane and two others, or on the plane, one other and an edge of the triangle.
 void open_planes(const Corners& c, Vertices polygon, double tolerance, std::array<bool, 6>& open) {
   for (std::size_t p = 0; p < c.planes; ++p) {
     for (const Vec4<double>& corner : c.p_clip) open[p] |= std::abs(distances(corner)[p]) <= tolerance;
@@ -61,7 +61,8 @@ Vertices vertices_of(const ClipPolygon& polygon, const Records<double>& r) {
   return {r.polygons.vertices.data() + polygon.first, polygon.count};
 }
 
-// A vertex of the triangle, and nowhere outside, but for rounding.
+// Holds a vertex to the plane of its triangle and to the inside of the view volume, but for rounding. The triangle's
+// edges are not checked.
 template <class At>
 void within_triangle(Meter& meter, const ClipVertex<double>& v, const Corners& corners, double factor, const At& at) {
   meter.value(distance_from_triangle(v, corners) / u, factor, at("off its triangle"), 0, 0);
@@ -70,7 +71,8 @@ void within_triangle(Meter& meter, const ClipVertex<double>& v, const Corners& c
     meter.value(std::max(-d[p], 0.0) / (u * corners.scale), factor, at("outside a plane"), d[p], 0);
 }
 
-// Vertices that rounding may make: within_triangle(), on a plane that cuts them or a corner.
+// Holds each vertex to within_triangle(), a cut vertex also to a clip plane (and, unless on two planes, to an edge),
+// any other vertex to a corner of the triangle.
 template <class At>
 void within_rounding(Meter& meter, Vertices polygon, const Corners& corners, double factor, const At& at) {
   for (const ClipVertex<double>& v : polygon) {
@@ -93,8 +95,8 @@ void within_rounding(Meter& meter, Vertices polygon, const Corners& corners, dou
   }
 }
 
-// Leaves out corners made by a cut that equal the next corner, colour included: where cuts meet, their order decides
-// which of them makes the corner. `planes`: how many must meet there.
+// Removes cut vertices that coincide with a neighbour, colour included: where cuts meet, the order of the cuts decides
+// which of them makes the vertex. `planes`: least number of clip planes that must meet at a removed vertex.
 void drop_coincident(std::vector<ClipVertex<double>>& polygon, const Corners& corners, double factor, int planes) {
   const auto meet_at = [&](const ClipVertex<double>& v) {
     int count = 0;
@@ -133,7 +135,8 @@ bool is_at_corner(const ClipVertex<double>& v, const Corners& corners, double mo
   });
 }
 
-// `loosely`: vertices on planes whose cuts rounding decides about are held to the triangle and the planes alone.
+// Compares two polygons of one primitive. `loosely`: a vertex on a plane whose cut rounding decides (open_planes()) is
+// held by within_rounding() alone, not to a counterpart.
 template <class At>
 void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const Corners& corners, double factor,
                      double copies, bool loosely, const At& at) {
@@ -160,11 +163,11 @@ void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const
     std::vector<ClipVertex<double>> fewer_mine = mine, fewer_theirs = theirs;
     drop_coincident(fewer_mine, corners, factor, loosely ? 2 : 1);
     drop_coincident(fewer_theirs, corners, factor, loosely ? 2 : 1);
-    // A cut along a nearly parallel edge slides: its neighbours may coincide on one side alone. Then each of the
-    // vertices, where there are as many, is held to its counterpart's planes and edge.
+    // Vertices may coincide on one side alone, because a cut slides along a nearly parallel edge. Coincident vertices
+    // are removed only if both sides then have equally many; else all vertices are compared.
     if (fewer_mine.size() == fewer_theirs.size()) mine.swap(fewer_mine), theirs.swap(fewer_theirs);
   }
-  // Where cuts are open, so are the corners that they make; the checks above have held `mine` to its limits.
+  // Different numbers of vertices are ambiguous where a cut is open; within_rounding() above has checked `mine`.
   if (mine.size() != theirs.size() && std::ranges::find(open, true) != open.end()) return meter.ambiguous();
   if (mine.size() != theirs.size()) {
     meter.value(kInfinite, 0, at("vertices"), static_cast<double>(all_mine.size()),
@@ -183,7 +186,7 @@ void compare_polygon(Meter& meter, Vertices all_mine, Vertices all_theirs, const
       meter.value(distance_from_edge(v, corners, 0) / u, factor, at("off its edge"), 0, 0);
       continue;
     }
-    // Indistinguishable from an uncut vertex: a cut within rounding of it.
+    // A cut vertex within rounding of a corner counts as the corner (`copies`).
     const bool as_copy = copies > 0 && v.cut != w.cut && is_at_corner(w, corners, (copies + factor) * unit);
     meter.value(v.cut == w.cut || as_copy ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
     if (!w.cut || as_copy) {
@@ -235,8 +238,8 @@ bool fails(auto compare_strictly) {
   return trial.done().differing > 0;
 }
 
-// The polygons of one primitive as one. A part's vertices may be off by `factor` u, and so apart by twice as much from
-// those of another part.
+// All polygons of one primitive, joined to one. Each vertex may be off by `factor` u, so vertices of two parts that
+// coincide may be 2 `factor` u apart.
 class WholePolygon {
  public:
   WholePolygon(PolygonRun run, const Records<double>& records, const Corners& corners, double factor)
@@ -259,7 +262,8 @@ class WholePolygon {
   std::vector<ClipVertex<double>> joined_;
 };
 
-// Compares the parts of a polygon whose corners rounding merged: each expected corner lies near one of the parts.
+// Compares parts that do not join with an expected polygon of which some vertices coincide: each expected vertex must
+// lie within 2 `factor` u of a part. The vertices of the parts are not compared.
 template <class At>
 void compare_parts(Meter& meter, std::span<const Vertices> parts, Vertices whole, const Corners& corners, double factor,
                    const At& at) {

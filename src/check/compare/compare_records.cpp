@@ -19,7 +19,8 @@ namespace {
 // below 1e-12 become 0.
 constexpr double kDoubleError = 1e-12;
 
-// The candidate's entries are rounded to float: a renderer may hold matrices in double.
+// Adds the differences of all entries to the meter. The candidate's entries are rounded to float first, because a
+// renderer may hold matrices in double.
 template <class Matrix, class Unit>
 void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, double factor, const Place& place,
                  const Matrix& allowance = Matrix(0)) {
@@ -107,8 +108,8 @@ Measurement compare_lights(const Scene& scene, const Records<double>& candidate,
 
 namespace {
 
-// Difference at p by two sides' matrices, each rounded from a double of its own; |M| |p| is its magnitude. Entries that
-// nearly cancel differ in their last bits, and then sums round otherwise.
+// Bound on |A p - B p| for two sides' matrices, each rounded to float from its own doubles: |A - B| |p|, and, where
+// that is not 0, 8 u of |M| |p| (`magnitude_at_p`), because sums of different entries round differently.
 Vec4<double> by_matrices(const Mat4<double>& a, const Mat4<double>& b, const Vec4<double>& p,
                          const Vec4<double>& magnitude_at_p) {
   const Vec4<double> apart = magnitude(a - b, p);

@@ -14,25 +14,26 @@
 
 namespace plumbline::check {
 
-/// Against matrices that were rounded to float, too; not the normal matrix, which OpenGL keeps inside. Unit: 1e-12 of
-/// the column's largest entry, or of 1.
+/// Compares matrices with a reference's that are rounded to float, too, except the normal matrix, which OpenGL does not
+/// hand out. Unit: 1e-12 of the column's largest entry, at least 1e-12.
 Measurement compare_rounded_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
 /// Precision in which a renderer inverts the model-view M for its normal matrix N.
 enum class Inversion { in_double, in_float };
-/// Against unrounded matrices. Inversion in float, of M rounded to float: each entry of N may be off by 8 u of that of
-/// |N| |M|^T |N| besides, as Mesa's (ledger, opengl.vertex).
+/// Compares matrices with unrounded ones. Unit: half an ULP, plus 1e-12 of the column's largest entry (at least 1e-12).
+/// Inversion::in_float, of M rounded to float: each entry of N may be off by 8 u of the same entry of |N| |M|^T |N|
+/// more, as in Mesa (ledger, opengl.vertex).
 Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor,
                              Inversion inversion = Inversion::in_double);
 
-/// The scene's lights in eye space against unrounded ones; nothing to compare where the candidate's records hold none.
-/// A place in eye space is R v + t, a direction R v. Unit: half an ULP, and the error of R's and t's entries before the
-/// rounding, 1e-12 of their column's largest entry, or of 1, as for matrices: 1e-12 |v|_1, and 1e-12 max(1, |t|) of a
-/// place. R is orthonormal: |v|_1 <= 2 |v|, |t| <= |p_eye| + |v|.
+/// Compares the scene's lights in eye space with unrounded ones; no items where the candidate's records hold no lights.
+/// A light's position is R v + t, its direction R v. Unit: half an ULP, plus the error before rounding, by
+/// compare_matrices()' unit of the entries of R and t: 1e-12 |v|_1 for R v, and 1e-12 max(1, |t|) for t. R is
+/// orthonormal, so that |v|_1 <= 2 |v| and |t| <= |p_eye| + |v|.
 Measurement compare_lights(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor);
 
-/// p_eye, p_clip: `positions` u of their magnitudes; if 0, what the two sides' matrices differ by is allowed. n_eye:
-/// `normals` u of the magnitude for `inversion`.
+/// Compares vertices. Tolerance of p_eye and p_clip: `positions` u of their magnitudes; if `positions` is 0, the effect
+/// of the difference between the two sides' matrices. Tolerance of n_eye: `normals` u of the magnitude for `inversion`.
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double positions, double normals, Inversion inversion = Inversion::in_double);
 /// Underflow and overflow of a reference's float arithmetic.
@@ -41,46 +42,50 @@ struct FloatRange {
   /// Why a channel whose power overflows (light_bounds.h) is the reference's fault; empty: it is not.
   std::string_view overflow = {};
 };
-/// Lit colours: `factor` u of light_bounds.h's magnitude, and what the two sides' normals cause, which stage vertex
-/// judges. Colours of unlit draws: equal but for underflow.
+/// Compares colours at vertices. Tolerance of lit colours: `factor` u of LightBounds::magnitude, plus
+/// LightBounds::jump, plus the effect of the difference between the two sides' normals, which stage vertex judges.
+/// Colours of draws that are not lit at vertices: equal but for underflow.
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                         double factor, LitPart part = {}, const FloatRange& range = {});
 
-/// Polygons as polygons: the same primitives and numbers of vertices; vertices of the mesh in the same place; each cut
-/// one on the planes that its counterpart lies on, and in the plane of its triangle, colours included. Where a corner
-/// lies within `factor` u of a clip plane, the number of vertices is ambiguous. `flat_applies`: colours are the
-/// provoking vertex' where the draw is flat. `copies`: error of a vertex of the mesh [u of its triangle's largest
-/// coordinate, or channel], for a renderer that keeps clip positions in another form; a cut no farther than that from
-/// such a vertex counts as the vertex.
+/// Compares clip polygons, primitive by primitive. Both sides must have the same number of vertices; a vertex of the
+/// mesh must be in the same place; a cut vertex must lie on the clip planes of its counterpart and in the plane of its
+/// triangle, colour included. Where a corner lies within `factor` u of a clip plane, the number of vertices is
+/// ambiguous. `flat_applies`: in flat draws, all colours are the provoking vertex'. `copies`: error of a vertex of the
+/// mesh [u of its triangle's largest coordinate, or channel], for a renderer that keeps clip positions in another form;
+/// a cut vertex within `copies` + `factor` u of a corner then counts as the corner.
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double factor, bool flat_applies = true, double copies = 0);
-/// The same positions but for `factor` u of |p_clip| + w; for references that rebuild p_clip from the window.
+/// Compares positions of clip polygons. Tolerance: `factor` u of |p_clip| + |w|, per coordinate; for references that
+/// rebuild p_clip from window positions.
 Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
                                       double factor);
 
-/// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
-/// the candidate's own p_win, exactly, to the grid of its conventions. Other facings, and missing or extra triangles,
-/// are legal where the candidate's clip polygons leave them open, by `area` (legal_window.h); the colours are those of
-/// the face, but for `colors` u of the value, or of 1.
+/// Compares window triangles with exact ones. Tolerance of p_win and 1/w: `factor` u of their magnitudes. Snapped
+/// positions must be the candidate's own p_win, rounded to the grid of its conventions (under FacingArea::either, half
+/// way between two grid positions: to either). Another facing, and a missing or extra triangle, is legal where the
+/// candidate's clip polygons leave it open, by `area` (legal_window.h). Colours must be those of the face, but for
+/// `colors` u of the value (at least of 1).
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, const Conventions& conventions = {}, double colors = 0,
                            FacingArea area = FacingArea::snapped);
-/// Bit for bit (as floats), but 1/w, which has the tolerance `factor` [ULP]. Colours are not compared: feedback has
-/// none of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h,
-/// turned_outlines): ambiguous.
+/// Compares window triangles bit for bit (as floats), 1/w with tolerance `factor` [ULP]. Colours are not compared:
+/// OpenGL's feedback gives none for flat draws. `turned`: primitives, counted as ambiguous, that the two sides may
+/// legally draw as different faces (legal_window.h, turned_outlines).
 Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference, double factor,
                                  std::span<const std::uint32_t> turned = {});
 
-/// Fragments of stage 5, both sides in draw_order() [fragments]: each extra or missing one differs by 1.
+/// Compares fragments of stage 5, both sides sorted by draw_order(): each extra or missing fragment is a difference of
+/// 1.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
-/// Likewise, for a candidate of another tie rule or grid than the dialect's: a fragment more or less is ambiguous where
-/// its sample is no farther from an edge of the candidate's triangle than snapping to the declared grid and to 1/256
-/// pixel together may move the edge. A candidate without a grid counts as one of 1/256 pixel. `sample`: the place of
-/// samples [pixels from the pixel's corner of smaller coordinates].
+/// compare_covered() for a candidate whose tie rule or grid is not the dialect's: an extra or missing fragment is
+/// ambiguous where its sample is no farther from an edge of the candidate's triangle than the edge may be moved by
+/// snapping to the declared grid (none: 1/256 pixel) and by snapping to 1/256 pixel together. `sample`: sample position
+/// [pixels from the pixel's corner of smallest coordinates].
 Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
                                       const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5));
-/// Likewise, for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Ambiguous: the edges
-/// of triangles with a corner within 4 u of midway between two grid positions.
+/// compare_covered() for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Fragments at
+/// edges are ambiguous only in triangles with a corner within 4 u of the middle between two grid positions.
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions);
 /// Planes count and id_sum (capture.h) of fragments whose `triangle` is an index into `triangles`.
@@ -90,27 +95,32 @@ struct FragmentSums {
 };
 FragmentSums fragment_sums(std::span<const Covered> fragments, std::span<const WindowTriangle<double>> triangles,
                            int width, int height);
-/// Whether planes.count, and id_sum where there is one, are the sums of the records' fragments.
+/// Whether planes.count, and planes.id_sum unless that is empty, are the sums of the records' fragments. False if the
+/// records hold no fragment, or if planes.count is empty.
 bool are_sums_of(const Records<double>& records, const Planes& planes);
-/// compare_covered(); a fragment more or less is ambiguous where `legal` leaves open how many there are
-/// (compare_planes.h), as long as others differ.
+/// compare_covered() with open pixels, where `legal` allows several counts (compare_coverage(), compare_planes.h). If a
+/// fragment differs at a pixel that is not open, differences at open pixels are ambiguous; if fragments at open pixels
+/// alone differ, these count as different.
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal);
-/// In steps of the depth format; rounded to it as the candidate's conventions say. `from_origin`: the allowance for a
-/// foreign renderer that interpolates by planes in float [u of bounds_from_origin()'s magnitude]; 0: none. It counts for
-/// depths of a float format; for codes where the conventions declare depth_arithmetic in float alone (elsewhere a
-/// truncated code would pass).
+/// Compares depths [steps of the depth format], rounded as the candidate's conventions declare. `from_origin`:
+/// allowance for a foreign renderer that interpolates by planes in float [u of bounds_from_origin()'s magnitude]; 0:
+/// none. The allowance applies to float formats; to codes only where the conventions declare a depth_arithmetic in
+/// float, because elsewhere a truncated code would pass.
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions = {}, double from_origin = 0);
-/// `from_origin`: as in compare_depth(); with it, the error of the arithmetic that the conventions declare.
+/// Compares interpolated colours. `from_origin`: as in compare_depth(); above 0, the error of the declared
+/// depth_arithmetic is allowed as well.
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
                                double from_origin = 0, const Conventions& conventions = {});
-/// Colours: of plain draws bit for bit (as floats), but for `copies` u of the value; of others `factor` u of each step's
-/// magnitude (shade_bounds.h). With `copies`, in a frame of codes, colours may be clamped to [0, 1].
+/// Compares shaded colours. Plain draws: bit for bit (as floats), but for `copies` u of the value. Other draws:
+/// `factor` u of each step's magnitude (shade_bounds.h). With `copies` above 0, in a frame of codes, colours may be
+/// clamped to [0, 1].
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, double copies = 0);
-/// A varying that is not lit, at the vertices, bit for bit (as floats): stage light only copies it.
+/// Compares a varying that is not lit, at the vertices, bit for bit (as floats): stage light only copies such a
+/// varying.
 Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference);
-/// `drawn` of each fragment [pixels]: differs by 1. No items where the candidate records none.
+/// Compares `drawn` of each fragment; a difference is 1. No items where the candidate's records do not hold `drawn`.
 Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference);
 
 }  // namespace plumbline::check

@@ -11,8 +11,9 @@
 
 namespace plumbline::check {
 
-/// A channel of two images, or an array of two captures. Numbers are compared as numbers: -0 is 0, an infinity equals
-/// itself alone, NaN equals nothing: not even NaN, for two pictures that are broken in one place are not proven equal.
+/// Comparison of one channel of two images, or of one array of two captures. Numbers are compared by value: -0 equals
+/// 0, an infinity equals only itself, NaN equals nothing, because two pictures with NaN in one place are not proven
+/// equal.
 struct StoredComparison {
   std::string what;  ///< name of the channel, of the array (capture_columns.h), or of what else differs
   Outcome outcome = Outcome::equal;
@@ -21,9 +22,10 @@ struct StoredComparison {
   std::string note;
 };
 
-/// Where sizes or windows differ, that row alone. Else a row `channels` if an image lacks one of the other's, a row
-/// `pixels` if several channels pair, and a row for each pair of channels: by name, of one-channel images whatever the
-/// names. `tolerance`: finite, at least 0, in values; codes are values in [0,1].
+/// Rows of two images. If sizes or windows differ: that row alone. Else: a row `channels` if an image lacks a channel
+/// of the other, a row `pixels` if there are several pairs of channels, and a row for each pair. Channels pair by name;
+/// two images of one channel each pair whatever the names. `tolerance`: finite, at least 0 [value; codes count as
+/// values in [0,1]].
 std::vector<StoredComparison> compare_images(const StoredImage& a, const StoredImage& b, double tolerance);
 
 /// One row per array that either capture holds, in the order of visit_capture() (capture_columns.h), after a row

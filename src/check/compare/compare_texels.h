@@ -11,9 +11,10 @@
 
 namespace plumbline::check {
 
-/// The candidate's texels against exact's at the candidate's own texture coordinates and levels of detail: `factor` u
-/// of the largest component of all textures, at least 1. Levels of detail lambda: `factor` u of |lambda|, at least 1,
-/// and their rounding in double; all below -16, which no texture is large enough for, count as -16.
+/// Compares the candidate's texels with exact's at the candidate's own texture coordinates and levels of detail.
+/// Tolerance of texels: `factor` u of the largest component of all the scene's textures (at least of 1). Tolerance of
+/// levels of detail (lambda): `factor` u of |lambda| (at least of 1), plus the rounding of lambda in double; a lambda
+/// below -16, where every texture is magnified, counts as -16.
 ///
 /// `legal`: exact's legal texels of a foreign candidate, or null. Its texel may be any that `conventions` allow at its
 /// level of detail or, where it hands out none (NaN), at any legal one; its level of detail is exact's or, where levels
@@ -22,9 +23,10 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
                            double factor, const std::vector<TexelRange>* legal = nullptr,
                            const Conventions& conventions = {});
 
-/// The winners' texels where the winners are the same, in u: within the candidate's legal.texels and FragmentBounds'
-/// slack. Where it is open which texel is the nearest, any is legal. Of such pixels p are predicted; more than
-/// 2 p + 6 sqrt(2 p + 1) are different. `note`: both numbers.
+/// Compares the winners' texels [u] where both sides have the same winner: both texels must lie in the candidate's
+/// legal.texels, widened by the slack of FragmentBounds::texel(). Where the nearest texel is open, any texel is legal;
+/// p such pixels are predicted, and more than 2 p + 6 sqrt(2 p + 1) count as different. `note`: set to both numbers
+/// where any pixel is open.
 Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor,
                                  std::string& note);
 

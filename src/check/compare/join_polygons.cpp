@@ -15,8 +15,8 @@ struct Edge {
   bool operator==(const Edge&) const = default;
 };
 
-// The numbers of the edges' ends in the order of one closed line through all of them; none: they are no such line. As
-// many edges end at each number as begin there.
+// Vertex numbers in the order of the one closed line that uses every edge; empty: the edges form no such line.
+// Precondition: at each vertex as many edges end as begin.
 std::vector<std::size_t> closed_line(std::span<const Edge> edges) {
   std::vector<std::size_t> line;
   if (edges.empty()) return line;

@@ -8,10 +8,10 @@
 
 namespace plumbline::check {
 
-/// The polygon of the edges that only one of the parts has; empty where they are not the edges of one. Edges of two parts
-/// cancel if they run opposite ways, and so do parts of edges on which a vertex lies. Vertices are the same if no
-/// coordinate is more than `tolerance` apart (clip_distances.h). A vertex made by a cut is left out where it and both its
-/// neighbours are at most `tolerance` times the scale from one clip plane: it is no corner of the polygon.
+/// Polygon of the edges that only one of the parts has; empty where these edges form no single closed polygon. Edges
+/// are split at vertices that lie on them; edges of two parts that run opposite ways cancel. Vertices are the same if
+/// no coordinate is more than `tolerance` apart (clip_distances.h). A vertex made by a cut is left out where the vertex
+/// and both neighbours lie within `tolerance` times Corners::scale of one clip plane.
 std::vector<ClipVertex<double>> join_polygons(std::span<const std::span<const ClipVertex<double>>> parts,
                                               const Corners& corners, double tolerance);
 

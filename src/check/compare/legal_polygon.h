@@ -19,13 +19,13 @@ struct Corners {
   std::size_t planes;  ///< clip planes in use: 6; where depth is clamped the 4 sides
 };
 
-/// Signed distances, in units of w, to right, left, top, bottom, near, far.
+/// Signed distances of a clip position from the planes right, left, top, bottom, near, far [w]; positive inside.
 std::array<double, 6> distances(const Vec4<double>& p);
 /// Whether the vertex is within `tolerance` [w] of clip plane `plane`, numbered as in distances().
 bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance);
 
-/// Whether all corners are inside every plane, or all outside one plane. Rounding leaves neither
-/// open: the difference w - x of two floats, rounded to float, keeps its sign.
+/// Whether all corners are inside every plane, or all outside one plane. Rounding cannot change either: the difference
+/// w - x of two floats, rounded to float, keeps its sign.
 bool needs_no_cut(const Corners& c);
 
 /// The polygon clipped by one plane, of distances(), moved inwards by `by` [w], by Sutherland-Hodgman in double.
@@ -37,8 +37,8 @@ std::vector<ClipVertex<double>> clipped(const Corners& c, double by);
 /// first `planes` clip planes. False for an empty polygon.
 bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes, double tolerance);
 
-/// Whether rounding decides if end `i` of a line is cut off, and `v` is what the line may end in: the corner itself, or
-/// a place on a plane that the corner lies on.
+/// Whether rounding decides if end `i` of a line is cut off, and `v` is a legal end: the corner itself, or a cut vertex
+/// on a clip plane that the corner lies on.
 bool may_end_in(const ClipVertex<double>& v, const Corners& c, std::size_t i, double tolerance);
 
 /// Distance in clip space of a point from a convex polygon; infinite for a polygon without vertices.

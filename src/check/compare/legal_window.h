@@ -24,9 +24,9 @@ struct WindowAnswer {
   bool has_no_area = false;                ///< on the grid: it covers nothing, drawn or not
 };
 
-/// Area that decides the facing of a polygon: that of corners on the grid of the conventions, of each triangle of its
-/// fan; or, for foreign renderers, which may decide before they snap, or once for a polygon of n corners, any of these.
-/// OpenGL 2.1, equation 3.6, leaves snapping open.
+/// Area that decides a polygon's facing (OpenGL 2.1, equation 3.6, leaves snapping open). `snapped`: area on the grid
+/// of the conventions, of each triangle of the fan. `either`, for foreign renderers: snapped or unsnapped area, of each
+/// triangle of the fan or of the whole polygon.
 enum class FacingArea { snapped, either };
 
 struct WindowCorner;
@@ -34,19 +34,21 @@ struct WindowCorner;
 class LegalWindow {
  public:
   /// `records`: matrices and clip polygons of the renderer that is judged, with the varying back_color where faces have
-  /// colours of their own. `factor`: of u of the magnitude of p_win, its error (ledger, exact.window). `conventions`:
-  /// the grid, and the sample, to whose pixel's centre window positions were moved (capture/by_conventions.h).
+  /// colours of their own. `factor`: error of p_win [u of its magnitude] (ledger, exact.window). `conventions`: the
+  /// grid, and the sample position; window positions have been moved by 1/2 - sample [pixels]
+  /// (capture/by_conventions.h).
   LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area,
               const Conventions& conventions = {});
 
-  /// Lists of records, one of which the primitive's polygons become. Filled on both faces: one list, each answer with
-  /// its own legal facings. Else a list for each legal facing, empty where that face is culled. No list: a line, a
-  /// point, no such polygon or no matrices, a corner without a finite window position, or several polygons that are not
-  /// filled.
+  /// Legal outcomes for the primitive: lists of answers, one of which its window records must match. A draw that is
+  /// filled on both faces has one list, each answer with its own legal facings. Any other draw has a list for each
+  /// legal facing, empty where that face is culled. No list: a line, a point, no such polygon or no matrices, a corner
+  /// without a finite window position, or several polygons that are not filled.
   std::vector<std::vector<WindowAnswer>> of(std::uint32_t primitive) const;
 
-  /// For each record of `run`, the number of its answer, ascending; none where `run` is not legal: a record without an
-  /// answer, or an answer missing that is not `absent`. Positions and 1/w within their error; colours are not compared.
+  /// Index in `answers` of each record's answer, ascending; nullopt where `run` is not legal: a record has no answer,
+  /// or an answer that is not `absent` has no record. Positions and 1/w match within their error; colours are not
+  /// compared.
   std::optional<std::vector<std::size_t>> match(std::span<const WindowTriangle<double>> run,
                                                 const std::vector<WindowAnswer>& answers) const;
 
@@ -68,10 +70,10 @@ class LegalWindow {
   DrawIndex draws_;
 };
 
-/// Primitives, ascending, of triangle meshes that are not filled on both faces, whose facing rounding leaves open, and
-/// which both sides draw legally but perhaps as different faces. Such a difference shows in polygon mode or culling, in
-/// colours or stencil operations that depend on the face, or, with a polygon offset, in depth. Facing may follow the
-/// snapped or the unsnapped area; edges and corners of the reference need no facing.
+/// Primitives, ascending, that both sides draw legally but may draw as different faces: triangles that are not filled
+/// on both faces, with a facing that rounding leaves open. The difference shows in polygon mode or culling, in colours
+/// or stencil operations of the face, or, with a polygon offset, in depth. Facing may follow the snapped or the
+/// unsnapped area. The facing of the reference's edges and corners is not read.
 std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<double>& candidate,
                                            const Records<double>& reference);
 

@@ -6,8 +6,8 @@
 
 namespace plumbline::check {
 
-/// Calls visit(run of `a`, run of `b`) for each primitive that either list has, in order. A run: its records, none where
-/// a list lacks it. Both lists: records with a number `primitive`, in ascending order.
+/// Calls visit(run of `a`, run of `b`) for each primitive in either list, ascending. Run: a list's records of that
+/// primitive, possibly none. Precondition: both lists are sorted by `primitive`.
 template <class Record, class Visit>
 void matched_by_primitive(std::span<const Record> a, std::span<const Record> b, Visit visit) {
   const auto take_run = [](std::span<const Record>& list, auto primitive) {

@@ -10,8 +10,8 @@ namespace plumbline::check {
 inline constexpr auto kAsItLies = [](const WindowVertex<double>& v) { return glm::dvec2(v.p_win); };
 inline constexpr auto kSnapped = [](const WindowVertex<double>& v) { return glm::dvec2(v.snapped); };
 
-/// Twice the signed area between the corners' places: [pixels^2] by kAsItLies, [1/256 pixel]^2 by kSnapped; positive
-/// where y turns x to the left.
+/// Twice the signed area of the corners' positions, by kAsItLies [pixel^2] or by kSnapped [(1/256 pixel)^2]. Positive:
+/// counter-clockwise with y up.
 template <class Place>
 double twice_area(const WindowTriangle<double>& t, Place place) {
   const glm::dvec2 a = place(t.v[0]), b = place(t.v[1]) - a, c = place(t.v[2]) - a;

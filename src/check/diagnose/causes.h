@@ -1,5 +1,5 @@
-// Likely causes of a wrong stage, in words: exact comes to the candidate's records with the cause in its input or
-// output, or the differences of all records show the cause's pattern.
+// Likely causes of a wrong stage, in words. A cause is likely if exact, with the cause put into its input or output,
+// makes the candidate's records, or if the differences of all records show the cause's pattern.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ struct Cause {
   std::string words;      ///< the cause, and what shows it
 };
 
-/// Likely causes: first those whose pattern the differences show, then, of those that the referee tries, the ones that
-/// leave the fewest differing records, if at most 1 in 50 of them (ties, and what rounding decides). Both parts are in
-/// the order of known_causes.h. Empty without a referee.
+/// Likely causes. First: causes whose pattern the differences show. Then: of the causes that the referee tries, those
+/// that leave the fewest records unexplained, at most 1 in 50 of the differing records (ties, and what rounding
+/// decides). Both parts are in the order of known_causes.h. Empty without a referee.
 std::vector<Cause> likely_causes(const Evidence& evidence);
 
 }  // namespace plumbline::check

@@ -19,13 +19,13 @@ struct CoverageDifference {
 /// One for each triangle whose pixels differ, in ascending order.
 std::vector<CoverageDifference> coverage_differences(const Evidence& evidence);
 
-/// The triangle with the most missing and extra pixels, the first of several; among those for which the pixel `worst`
-/// is missing or extra, if any (a tie rule may leave larger differences elsewhere, which are legal). None: no triangle
-/// differs.
+/// Triangle with the most missing and extra pixels (the first, if several have as many). If the pixel `worst` is
+/// missing or extra in any triangle, only such triangles count: elsewhere a tie rule may leave larger differences,
+/// which are legal. nullopt: no triangle differs.
 std::optional<CoverageDifference> worst_triangle(const Evidence& evidence, const Place& worst);
 
 /// Text picture, highest y first: `#` both, `?` missing, `!` extra, `.` neither. At most 64 x 32 pixels about the first
-/// that differs; the line above it names the lower left pixel.
+/// missing pixel (none: the first extra pixel); the line above the picture names its lower left pixel.
 std::string coverage_picture(const CoverageDifference& triangle);
 
 }  // namespace plumbline::check

@@ -54,7 +54,8 @@ inline constexpr std::uint64_t kMostFragments = std::uint64_t{1} << 20;
 /// antialiased scene: the passes together, and `resolve`.
 Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                    std::uint64_t most_fragments = kMostFragments);
-/// The same stages; findings say who and by how much, without numbers, causes and pictures. For many runs.
+/// diagnose() for many runs: findings hold the judge and the measurement, without numbers, causes, pictures and
+/// explained pixels, so that rule 1 of Diagnosis::first never applies.
 Diagnosis diagnose_in_brief(const Scene& scene, Renderer& candidate, std::span<const Reference> references);
 
 /// The right output of all stages up to merge: each as `referee` makes it of its own earlier records, rounded to the

@@ -18,13 +18,13 @@ namespace plumbline::check {
 
 /// What became of a fragment, by the first test that it did not pass, in OpenGL's order (2.1 spec, chapter 4.1).
 enum class Fate {
-  culled,       ///< its triangle was
+  culled,       ///< of a culled triangle
   scissor,      ///< outside its draw's box
   alpha,        ///< alpha test
   stencil,      ///< stencil test
   depth,        ///< depth test
-  discarded,    ///< passed them all by its own numbers, and was not drawn all the same
-  overwritten,  ///< drawn, and another after it
+  discarded,    ///< passed every test by its own numbers, but was not drawn
+  overwritten,  ///< drawn, and a later fragment was drawn over it
   winner        ///< the last that was drawn
 };
 std::string_view name_of(Fate fate);
@@ -43,7 +43,7 @@ struct PixelFragment {
   std::optional<glm::dvec4> shaded;
   std::optional<bool> drawn;  ///< as the renderer says
   Fate fate = Fate::discarded;
-  std::string why;                           ///< with the numbers: of tests in codes where the frame has codes
+  std::string why;                           ///< tests with their numbers, in codes where the frame has codes
   std::optional<double> held_depth;          ///< frame's depth before it, in the format; culled, scissored: none
   std::optional<std::uint8_t> held_stencil;  ///< likewise, in frames that have stencil values
 };

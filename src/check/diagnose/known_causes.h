@@ -57,7 +57,7 @@ void change_scene(Scene& scene, Change change) {
   }
 }
 
-/// Likewise for the capture itself, or all its records of one type.
+/// Calls change(x) for the capture, or for every record in the capture of the type that `change` takes.
 template <class Change>
 void change_records(const Scene& scene, Capture& capture, Change change) {
   Records<double>& r = capture.records;
@@ -108,8 +108,8 @@ std::vector<KnownCause> all_causes();
 Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer,
                   const Conventions& conventions = {});
 
-/// Detects truncation of real numbers `expected` to codes. shows(): n > 0 codes are below the nearest one, and
-/// truncation (to 1e-3 of a code) leaves at most n/50 unexplained.
+/// Detector of truncation. add(): a code, and the real number that should be rounded to it [codes]. shows(): n > 0
+/// codes are below the nearest code, and at most n/50 codes are not explained by truncation (within 1e-3 code).
 class Truncation {
  public:
   void add(double code, double expected) {
@@ -130,7 +130,7 @@ void swap_red_and_blue(std::vector<T>& records) {
 }
 
 /// Whether the sample at `place` [1/256 pixel] from the pixel's centre lies exactly on the line through two of the
-/// triangle's snapped corners, even beyond them.
+/// triangle's snapped corners, even beyond these corners. True for every sample where two snapped corners coincide.
 bool on_an_edge(const WindowTriangle<double>& triangle, glm::ivec2 pixel, glm::ivec2 place);
 
 }  // namespace plumbline::check

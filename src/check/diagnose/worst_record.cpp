@@ -146,7 +146,7 @@ class RecordPrinter {
   void vertex(std::size_t i, TextLines& out) const {
     const std::size_t d = draws_.of_vertex(i).value(), k = i - draws_.ranges()[d].first_vertex;
     const Mesh& mesh = scene_.meshes[scene_.draws[d].mesh];
-    out.push_back(fmt::format("vertex {} (the {}. of draw {}): p_model {}, normal {}", i, k + 1, d,
+    out.push_back(fmt::format("vertex {} (number {} of draw {}): p_model {}, normal {}", i, k + 1, d,
                               text(mesh.positions.at(k)), text(mesh.normals.at(k))));
     came_in(stage_ == Stage::vertex ? Stage::matrices : Stage::vertex, stage_ == Stage::vertex ? d : i, out);
     beside(i, i, out);
@@ -253,7 +253,7 @@ class RecordPrinter {
   }
   std::string primitive_text(std::uint32_t primitive) const {
     const std::size_t d = draws_.of_primitive(primitive).value();
-    return fmt::format("primitive {} (the {}. of draw {})", primitive,
+    return fmt::format("primitive {} (number {} of draw {})", primitive,
                        primitive - draws_.ranges()[d].first_primitive + 1, d);
   }
   static std::vector<std::span<const ClipVertex<double>>> polygons_of(const Capture& side, std::uint32_t primitive) {

@@ -10,8 +10,8 @@
 
 namespace plumbline::check {
 
-/// Lines: where it is, what came in, what came out, what was expected (of a judge of what is legal, the nearest legal
-/// value), and how far they are apart; the triangle and its corners where there are such.
+/// Text lines: the record's place, input, output, expected output (of a judge of legal answers: the nearest legal
+/// value) and the difference; also the triangle and its corners where the record belongs to a triangle.
 std::vector<std::string> worst_record(const Evidence& evidence, const JudgeId& judge, const Measurement& measurement);
 
 }  // namespace plumbline::check

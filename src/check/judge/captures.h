@@ -35,7 +35,8 @@ Answers ask_references(const Scene& scene, std::span<const Reference> references
 Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
                         const Conventions& conventions);
 
-/// Records of the stages that `shown` shows, each run alone on those before it, of a candidate whose capture failed.
+/// Records of a candidate whose capture failed: each stage that `shown` shows, run alone on the stages before, up to
+/// the first stage that throws. `shown`: that stage and all later stages are then marked as not shown.
 Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown);
 
 }  // namespace plumbline::check

@@ -13,12 +13,13 @@
 
 namespace plumbline::check {
 
-/// Verdict of an antialiased scene: each row is the worst of its passes' (judge_single.h), with the items of all; row
-/// `resolve` is of the whole picture. Of `most_fragments` each pass has its share.
+/// Verdict of an antialiased scene: each row is the worst of the passes' rows (judge_single.h), with the items of all
+/// passes; row `resolve` is of the whole picture. Each pass may have `most_fragments` divided by the number of passes.
 SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                           BothCaptures* drawn, std::uint64_t most_fragments);
-/// The same, where the passes have been judged: their verdicts in order, and the candidate's colours of each (empty:
-/// none). A candidate that draws passes of its own must draw these (exact's row `resolve`).
+/// Verdict of an antialiased scene whose passes have been judged. `passes`: the passes' verdicts, in order. `colors`:
+/// the candidate's colours of each pass; an empty plane: none. A candidate with painters must have these colours as its
+/// samples (exact's row `resolve`).
 SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> passes,
                             std::span<const Plane<glm::vec4>> colors, Renderer& candidate,
                             std::span<const Reference> references, BothCaptures* drawn = nullptr);

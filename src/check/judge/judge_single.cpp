@@ -22,8 +22,8 @@ namespace plumbline::check {
 
 namespace {
 
-// Row `failed`, at the failing stage, of a candidate whose capture failed. `shown` keeps the stages before that one and
-// before coverage; none if the failing stage is unknown.
+// Row `failed` of a candidate whose capture failed, at the failing stage (unknown: at merge). `shown` keeps the stages
+// that are before the failing stage and before coverage; none if the failing stage is unknown.
 Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* referee, const std::string& how,
                             RendererInfo& shown) {
   const auto at = referee == nullptr ? std::nullopt : failing_stage(scene, candidate, *referee);
@@ -35,8 +35,8 @@ Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* r
   return not_judged(scene.name, shown.name, stage, Outcome::failed, at ? at->how : how);
 }
 
-// Texture and visibility by the referee: other rows need legal texels, and which fragments are drawn. Where the referee
-// fails, its own row says so.
+// Stages texture and visibility as the referee makes them: other rows need the legal texels, and which fragments are
+// drawn. Where the referee fails, the referee's own row reports the failure.
 MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& referee,
                        const Conventions& conventions) {
   MadeStages made;

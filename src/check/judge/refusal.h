@@ -1,4 +1,4 @@
-// Why a renderer answered nothing.
+// Refusal: the reason why a renderer gave no answer.
 #pragma once
 
 #include <exception>
@@ -16,7 +16,7 @@ struct Refusal {
   std::string why;
 };
 
-/// Calls ask(); the refusal, or nothing where it answered. Throws OverBudget on.
+/// Calls ask(). Returns the refusal, or nullopt where ask() returned. Rethrows OverBudget.
 template <class Ask>
 std::optional<Refusal> refusal_within_budget(Ask ask) {
   try {
@@ -31,7 +31,7 @@ std::optional<Refusal> refusal_within_budget(Ask ask) {
   }
 }
 
-/// Calls ask(); the refusal, or nothing where it answered.
+/// Calls ask(). Returns the refusal, or nullopt where ask() returned. OverBudget counts as `unsupported`.
 template <class Ask>
 std::optional<Refusal> refusal_of(Ask ask) {
   try {

@@ -1,5 +1,4 @@
-// The kinds of rows of a scene's judgement, each by a function of its own (Kind, verdict.h), which appends a row for
-// each stage that it judges.
+// Functions that append rows to a scene's judgement, one function per kind of row (Kind, verdict.h).
 #pragma once
 
 #include "capture/capture.h"
@@ -13,16 +12,19 @@ namespace plumbline::check {
 void judge_from_scene(const SceneJudgement& c, const Capture& theirs, const RendererInfo& of,
                       const RendererInfo& candidate);
 
-/// The stage that the reference shows, beside the candidate's.
+/// Appends the row of one stage that compares the reference's planes or records with the candidate's
+/// (Kind::side_by_side).
 void side_by_side(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name);
 
-/// Coverage, depth, colour or visibility against an oracle's legal answers.
+/// Appends the row that compares coverage, depth, colour or visibility with an oracle's legal answers (Kind::legal).
 void ask_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, const JudgeId& name);
 
-/// Row per_stage: the referee runs the stage on the candidate's records, and the results are compared.
+/// Appends the row `name` (Kind::per_stage, repaired or at_worst): the referee runs the stage on the candidate's
+/// records, and compare_stage() compares the result.
 void run_exact_stage(const SceneJudgement& c, Renderer& referee, Stage stage, const JudgeId& name);
 
-/// The stage as it was made of the candidate's own records, against the candidate's. Not of matrices, nor of resolve.
+/// Appends the row that compares the candidate's stage with `made`, the referee's stage of the candidate's records. No
+/// row for matrices and resolve.
 void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, const JudgeId& name);
 
 }  // namespace plumbline::check

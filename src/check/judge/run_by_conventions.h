@@ -7,7 +7,8 @@
 
 namespace plumbline::check {
 
-/// Whether the view volume is not OpenGL's: exact's clipping, and the depths of its window, are others.
+/// Whether the declared view volume differs from OpenGL's (clip_depth): exact's clipping and window depths then do not
+/// apply.
 bool has_other_volume(const Conventions& conventions);
 
 /// Whether the conventions make another stage than OpenGL's.

@@ -20,7 +20,8 @@ namespace plumbline::check {
 
 namespace {
 
-// Roundings that a stranger's interpolation may have besides: in float from the window's origin, as llvmpipe's.
+// Allowance for a foreign candidate that interpolates in float from the window's origin, as llvmpipe does [u of
+// bounds_from_origin()]; 0 for any other candidate.
 double from_origin(const SceneJudgement& c, Stage stage) {
   return c.foreign ? tolerance(Profile::opengl, stage).factor : 0;
 }
@@ -38,7 +39,8 @@ constexpr double kCopiedVertices = 4;
 // as in GAMES101's framework, and so are a product by a white light and its sum (largest seen: 1 u).
 double copied_colors(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
 
-// A stranger may leave the sides to the raster.
+// Compares clip polygons; a foreign candidate's are first cut at the sides of the view volume, which such a candidate
+// may leave to the rasterizer.
 Measurement compare_clipped(const SceneJudgement& c, const Records<double>& mine, const Records<double>& theirs,
                             double factor, bool flat_applies) {
   if (!c.foreign) return compare_polygons(c.scene, mine, theirs, factor, flat_applies);
@@ -119,8 +121,8 @@ void compare_visible(const SceneJudgement& c, const Capture& made, const JudgeId
   c.add(name, Stage::visibility, std::move(m));
 }
 
-// Exact's planes; where the scene's clear depth is half way between two codes, with the one that a foreign candidate
-// took.
+// Exact's planes. Where the scene's clear depth lies half way between two codes, the background has the code that a
+// foreign candidate took.
 Planes with_either_clear_depth(const SceneJudgement& c, const Planes& made) {
   Planes out = made;
   const Planes& mine = c.candidate.planes;

@@ -31,7 +31,7 @@ struct SceneJudgement {
   /// turned primitives.
   std::uint64_t open = 0;
 
-  /// The same, with `more` items left out.
+  /// Copy with `more` added to `open`.
   SceneJudgement with_open(std::uint64_t more) const {
     SceneJudgement out = *this;
     out.open += more;
@@ -47,7 +47,7 @@ struct SceneJudgement {
     static const Legal none;
     return foreign ? legal : none;
   }
-  /// Repeats the judge's row of stage `of` for another stage that the same plane shows.
+  /// Appends a copy of the judge's row of stage `of` as the row of `stage`: the same plane shows both.
   void repeat(const JudgeId& judge, Stage of, Stage stage) const {
     const auto same = [&](const Comparison& c) { return c.judge == judge && c.stage == of; };
     const auto row = std::find_if(rows.begin(), rows.end(), same);

@@ -153,9 +153,10 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
   }
 }
 
-// Compares the stage beside turned outlines (legal_window.h), which the two sides may draw as different faces: coverage
-// leaves them out, later planes are open where they lie. The rows of exact per stage judge them. False: nothing was
-// compared, because the stage is an earlier one, there are none, or what they cover is unknown.
+// Compares the stage without turned outlines (legal_window.h), primitives that the two sides may draw as different
+// faces: coverage leaves these out, later stages treat the pixels that they cover as open. The rows of exact per stage
+// judge turned outlines. False: nothing was compared, because the stage comes before coverage, no outline is turned, or
+// the coverage of lines is unknown.
 bool compare_beside_turned(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const bool lines_untold = draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate);
   if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
@@ -178,8 +179,8 @@ void side_by_side(const SceneJudgement& c, const Capture& theirs, Stage stage, c
   const std::size_t before = c.rows.size();
   if (!compare_beside_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
   if (c.rows.size() == before) return;
-  // The frame's depths may all be codes, such as the clear depth's, where depths tested before were not: a difference
-  // then says nothing.
+  // Depths left in the frame may all be codes (such as the clear depth's) although earlier tests compared depths of
+  // another format: a difference is then no evidence.
   Comparison& row = c.rows.back();
   const bool by_depth = stage == Stage::visibility || stage == Stage::merge;
   const bool differs = row.outcome == Outcome::different || row.outcome == Outcome::dispute;

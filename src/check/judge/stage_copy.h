@@ -1,5 +1,5 @@
-// A capture's stages one by one: taken from one capture into another, and exact's real numbers rounded to what a
-// renderer in float would have handed on.
+// Operations on single stages of a capture: copying and clearing them, and rounding exact's real numbers to the formats
+// that a renderer in float hands on.
 #pragma once
 
 #include "capture/capture.h"
@@ -7,8 +7,8 @@
 
 namespace plumbline::check {
 
-/// Replaces the stage's records and planes in `to` by those of `from`; of texture legal.texels, of resolve
-/// planes.color, too. Other stages stay.
+/// Replaces the stage's records and planes in `to` by those of `from`; with texture also legal.texels, with resolve
+/// also planes.color. Other stages stay.
 void copy_stage(Stage stage, const Capture& from, Capture& to);
 
 /// Empties the stages after `stage`, up to merge.
