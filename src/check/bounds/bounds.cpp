@@ -180,21 +180,50 @@ std::span<const WindowTriangle<double>> triangles_of(const Records<double>& r, s
   return {first, std::ranges::upper_bound(first, r.triangles.end(), primitive, {}, number)};
 }
 
+namespace {
+
+// Whether the pixel's centre is inside the triangle, or within a pixel of its outline. Of lines: always.
+bool reaches(const WindowTriangle<double>& t, int x, int y) {
+  if (t.corners < 3) return true;
+  const Vec2<double> centre(x + 0.5, y + 0.5);
+  const Vec3<double> b = barycentrics(t, centre.x, centre.y).value;
+  if (std::min({b.x, b.y, b.z}) >= 0) return true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2<double> from(t.v[i].p_win), along = Vec2<double>(t.v[(i + 1) % 3].p_win) - from;
+    const double length2 = glm::dot(along, along);
+    const double share = length2 > 0 ? std::clamp(glm::dot(centre - from, along) / length2, 0.0, 1.0) : 0;
+    if (!(glm::distance(centre, from + share * along) > 1)) return true;
+  }
+  return false;
+}
+
+// Calls visit(t) for each window triangle of the primitive that reaches the pixel; if none does, for all of them.
+void each_at(const Records<double>& r, std::int32_t primitive, int x, int y, auto visit) {
+  const std::span<const WindowTriangle<double>> all = triangles_of(r, primitive);
+  const auto is_here = [&](const WindowTriangle<double>& t) { return all.size() == 1 || reaches(t, x, y); };
+  const bool any = std::ranges::any_of(all, is_here);
+  for (const WindowTriangle<double>& t : all) {
+    if (!any || is_here(t)) visit(t);
+  }
+}
+
+}  // namespace
+
 PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, int x, int y,
                              const DepthLimits& limits) {
   PlaneBounds out{1, Vec4<double>(1)};
   double nearest = std::numeric_limits<double>::infinity();
-  for (const WindowTriangle<double>& t : triangles_of(r, primitive)) {
+  each_at(r, primitive, x, y, [&](const WindowTriangle<double>& t) {
     const PlaneBounds b = bounds_from_origin(t, x, y, limits);
     out.depth = std::max(out.depth, b.depth);
     out.color = glm::max(out.color, b.color);
     out.inv_w = std::max(out.inv_w, b.inv_w);
     const double distance = distance_from_line(t, x + 0.5, y + 0.5);
-    if (distance >= nearest) continue;
+    if (distance >= nearest) return;
     nearest = distance;  // of an unfilled triangle, the edge nearest the pixel
     out.line_shift_depth = b.line_shift_depth;
     out.line_shift_color = b.line_shift_color;
-  }
+  });
   return out;
 }
 
@@ -226,10 +255,10 @@ double OffsetErrors::by_length(const WindowTriangle<double>& t) const {
   return static_cast<double>(draw->polygon_offset.factor) * (std::hypot(dx, dy) - std::max(dx, dy));
 }
 
-double OffsetErrors::of(const Records<double>& r, std::int32_t primitive) const {
+double OffsetErrors::of(const Records<double>& r, std::int32_t primitive, int x, int y) const {
   double most = 0;
   if (!any_) return most;
-  for (const WindowTriangle<double>& t : triangles_of(r, primitive)) most = std::max(most, of(t));
+  each_at(r, primitive, x, y, [&](const WindowTriangle<double>& t) { most = std::max(most, of(t)); });
   return most;
 }
 

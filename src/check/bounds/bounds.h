@@ -56,8 +56,8 @@ DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive);
 /// (PlaneBounds), which differ where 1/w differs much between the ends. Flushing of gradients and results to zero is
 /// included. Infinite where area_may_vanish().
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
-/// Bounds for a primitive: the largest over all of its window triangles, whether they cover the pixel or not, at least
-/// 1. Line shifts: those of the edge nearest to the pixel's centre.
+/// Bounds for a primitive at a pixel, at least 1: the largest over its window triangles that hold the pixel's centre or
+/// come within a pixel of it; if none does, over all. Line shifts: those of the edge nearest to the pixel's centre.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
                              const DepthLimits& limits = {});
 
@@ -78,8 +78,8 @@ class OffsetErrors {
  public:
   explicit OffsetErrors(const Scene& scene, const Conventions& conventions = {});
   double of(const WindowTriangle<double>& triangle) const;
-  /// The largest over a primitive's triangles.
-  double of(const Records<double>& records, std::int32_t primitive) const;
+  /// The largest over the triangles that primitive_bounds() takes.
+  double of(const Records<double>& records, std::int32_t primitive, int x, int y) const;
   /// Offset with the slope as the length of the depth's gradient, minus the offset with the slope as the gradient's
   /// larger component; both are legal (OpenGL 2.1 spec 3.5.5) [window z].
   double by_length(const WindowTriangle<double>& triangle) const;

@@ -68,7 +68,7 @@ FragmentSums fragment_sums(std::span<const Covered> fragments, std::span<const W
 }
 
 bool are_sums_of(const Records<double>& records, const Planes& planes) {
-  if (records.covered.empty() || planes.count.empty()) return false;
+  if (planes.count.empty()) return false;
   const FragmentSums sums =
       fragment_sums(records.covered, records.triangles, planes.count.width(), planes.count.height());
   return sums.count.values() == planes.count.values() &&
@@ -156,7 +156,9 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
         }
         const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
         const double allowance = needed ? float_error(candidate.triangles[c.triangle], c) / step : 0;
-        meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b, allowance);
+        const Place place{c.x, c.y, c.triangle, "z"};
+        if (!std::isfinite(rounding + allowance)) return open_value(meter, a, place, b);
+        meter.value(apart, factor + rounding, place, a, b, allowance);
       });
 }
 

@@ -130,12 +130,15 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
     if (answers.empty()) {
       return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z"}, z, 0);
     }
-    const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, apart);
+    const double of_clear = tolerance(Profile::oracle, Stage::depth).factor;
+    const auto most_apart = [&](const LegalAnswer& a) { return is_of_fragment(a) ? factor : of_clear; };
+    const LegalAnswer& nearest =
+        *std::ranges::min_element(answers, {}, [&](const LegalAnswer& a) { return apart(a) / most_apart(a); });
     const double expected = std::isnan(z) ? nearest.z_lo : std::clamp(z, nearest.z_lo, nearest.z_hi);
     const double codes = declared.has_codes ? z * depth_scale(scene.frame.depth) : 0;
     constexpr double kRoundings = 1e-6;  // of a code that was computed in double [step]
     const bool is_code = std::abs(codes - std::nearbyint(codes)) <= kRoundings;
-    const double most = is_of_fragment(nearest) ? factor : tolerance(Profile::oracle, Stage::depth).factor;
+    const double most = most_apart(nearest);
     meter.value(is_code ? apart(nearest) : std::max(apart(nearest), 2 * most), most,
                 {x, y, nearest.primitive, is_code ? "z" : "z that is no code"}, z, expected);
   });

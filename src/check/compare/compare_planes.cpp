@@ -1,78 +1,16 @@
 #include "check/compare/compare_planes.h"
-#include "check/compare/blending.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include <fmt/format.h>
-
-#include "check/bounds/fragment_bounds.h"
+#include "check/bounds/bounds.h"
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
-#include "check/verdict/ledger.h"
+#include "check/compare/same_winners.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
-
-namespace {
-
-// Compares a plane (such as &Planes::color) by visit(meter, x, y, winner) where both sides have the same winner;
-// visibility judges the other pixels.
-Measurement where_winners_agree(const Planes& a, const Planes& b, auto plane, const std::string& unit, auto visit) {
-  std::string why;
-  if (!same_size(a.id, b.id, why) || !same_size(a.id, a.*plane, why)) return mismatch(unit, why, a.id.size());
-  return compare_planes(a.*plane, b.*plane, unit, [&](Meter& meter, int x, int y) {
-    const std::int32_t id = a.id(x, y);
-    if (id == b.id(x, y)) visit(meter, x, y, id);
-  });
-}
-
-Vec4<double> codes_of(const Vec4<double>& color, double scale) {
-  return glm::roundEven(glm::clamp(color, 0.0, 1.0) * scale);
-}
-
-// Codes by which a reference's clear colour may be off: 1 where the float product of colour and scale may be rounded to
-// the middle between two codes, else 0.
-double cleared_codes(const FrameFormat& frame, int channel) {
-  const double scale = color_scale(frame.color), code = scale * static_cast<double>(frame.clear_color[channel]);
-  return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? 1 : 0;
-}
-
-// Values of the winner's edges or corners that another renderer may hold at the pixel.
-std::vector<EdgeValue> values_beside(const Scene& scene, const Capture& candidate, std::int32_t id, int x, int y) {
-  const auto triangles = triangles_of(candidate.records, id);
-  std::vector<EdgeValue> out = edge_values(triangles, x, y);
-  const std::vector<EdgeValue> tied = tied_corners(triangles, x, y, depth_step(scene.frame.depth, 1));
-  out.insert(out.end(), tied.begin(), tied.end());
-  return out;
-}
-
-// Unit in which colours of the frame are compared.
-std::string code_unit(const FrameFormat& frame) {
-  const double scale = color_scale(frame.color);
-  return scale > 0 ? fmt::format("1/{:.0f}", scale) : "u";
-}
-
-// Whether the two sides cover a pixel with different fragments, as where they draw lines by different rules; coverage
-// judges such pixels. Counts are compared as well as sums, because primitive 0 has weight 0 in the sum.
-class OthersCover {
- public:
-  OthersCover(const Planes& a, const Planes& b) : a_(a), b_(b) {
-    std::string why;
-    comparable_ = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why) &&
-                  same_size(a.count, b.count, why) && same_size(a.count, a.id, why);
-  }
-  bool operator()(int x, int y) const {
-    return comparable_ && (a_.id_sum(x, y) != b_.id_sum(x, y) || a_.count(x, y) != b_.count(x, y));
-  }
-
- private:
-  const Planes &a_, &b_;
-  bool comparable_ = false;
-};
-
-}  // namespace
 
 Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal) {
   std::string why;
@@ -207,180 +145,20 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
     if (others_left_it(x, y)) return open_value(meter, z, place, z_ref);
     const DepthLimits limits = depth_limits(draws, id);
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y, limits);
-    double bound = bounds.depth + offsets.of(candidate.records, id),
+    double bound = bounds.depth + offsets.of(candidate.records, id, x, y),
            diff = std::min(difference(z, z_ref), difference(z + bounds.line_shift_depth, z_ref));
-    for (const EdgeValue& edge : edge_values(triangles_of(candidate.records, id), x, y, limits))
-      diff = std::min(diff, difference(edge.depth, z_ref));
+    const double step = depth_step(scene.frame.depth, z_ref), reach = factor * u * bound + step;
+    const std::vector<EdgeValue> edges = edge_values(triangles_of(candidate.records, id), x, y, limits);
+    const auto is_own = [&](const EdgeValue& edge) { return std::abs(edge.depth - z) <= reach; };
+    if (std::ranges::any_of(edges, is_own)) {
+      for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.depth, z_ref));
+    }
     beneath.each(x, y, z, factor, [&](double apart, double its_bound) {
       bound = std::max(bound, its_bound);
       diff = std::min(diff, difference(z + apart, z_ref));
     });
     if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
-    const double step = depth_step(scene.frame.depth, z_ref);
     meter.value(diff / u, factor * bound, place, z, z_ref, step / u);
-  });
-}
-
-Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
-                                  double factor) {
-  const Planes &a = candidate.planes, &b = reference.planes;
-  const FragmentBounds bounds(scene, candidate, reference, factor);
-  return where_winners_agree(a, b, &Planes::shaded, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
-    const Place place{x, y, id, "color", true};
-    if (id == kBackground) {  // no fragment has a colour; merge judges the clear colour
-      for (int c = 0; c < 4; ++c)
-        finite_value(meter, a.shaded(x, y)[c], place), finite_value(meter, b.shaded(x, y)[c], place);
-      return;
-    }
-    const FragmentBound bound = bounds.of_winner(id, x, y);
-    meter.suspect(bound.reason);
-    const std::vector<EdgeValue> edges = values_beside(scene, candidate, id, x, y);
-    for (int c = 0; c < 4; ++c) {
-      const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
-      double diff = std::min(difference(v, w), difference(v + bound.line_shift[c], w));
-      for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
-      const bool is_open = !std::isfinite(bound.color[c]);
-      // NaN of the reference is no evidence about the candidate: the reference computes 0 / 0 for a triangle without
-      // area.
-      if (is_open && std::isnan(w) && std::isfinite(v)) {
-        meter.ambiguous();
-      } else if (is_open) {
-        open_value(meter, v, place, w);
-      } else {
-        meter.value(diff / u, bound.color[c] / u, place, v, w, bound.apart[c] / u);
-      }
-    }
-  });
-}
-
-Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
-                          double factor) {
-  const Planes &a = candidate.planes, &b = reference.planes;
-  const double scale = color_scale(scene.frame.color);
-  const FragmentBounds bounds(scene, candidate, reference, factor);
-  const std::string unit = code_unit(scene.frame);
-  return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
-    const bool cleared = id == kBackground;
-    const FragmentBound fragment = cleared ? FragmentBound{} : bounds.of_winner(id, x, y);
-    const Vec4<double> bound = fragment.color + fragment.apart;
-    meter.suspect(fragment.reason);
-    const std::vector<EdgeValue> edges = values_beside(scene, candidate, id, x, y);
-    for (int c = 0; c < 4; ++c) {
-      const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
-      if (!std::isfinite(bound[c])) {
-        open_value(meter, v, {x, y, id, "color", true}, w);
-        continue;
-      }
-      double diff = difference(v, w);
-      for (const EdgeValue& edge : edges)
-        diff = std::min(diff, difference(std::round(scale * std::clamp(edge.color[c], 0.0, 1.0)), w));
-      if (fragment.line_shift[c] != 0 && a.shaded.size() == a.color.size()) {
-        const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.line_shift[c];
-        diff = std::min(diff, difference(std::round(scale * std::clamp(along, 0.0, 1.0)), w));
-      }
-      meter.value(diff, cleared ? cleared_codes(scene.frame, c) : codes, {x, y, id, "color", true}, v, w,
-                  std::floor(scale * bound[c]));
-    }
-  });
-}
-
-Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
-                            double codes, double factor) {
-  const Planes &a = candidate.planes, &b = reference.planes;
-  const double scale = color_scale(scene.frame.color);
-  const FragmentBounds bounds(scene, candidate, reference, factor);
-  const FragmentsByPixel drawn = FragmentsByPixel::drawn(scene.frame, candidate.records);
-  const Plane<std::uint8_t> tied = legal.empty() ? open_by_depth(scene, candidate) : Plane<std::uint8_t>();
-  const OthersCover others_cover(a, b);
-  const std::string unit = code_unit(scene.frame);
-  const bool reads = factors_read_frame(scene);
-  return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
-    const Place place{x, y, id, "color", true};
-    const bool open = others_cover(x, y) || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
-                      (!tied.empty() && tied(x, y) != 0);
-    int fragments = 0;
-    double bound = 0;
-    bool combined = false, certain = true;      // by a logic op, of codes that both sides have
-    glm::bvec4 cleared(true), on_clear(false);  // the clear colour is there still; a logic op has read it
-    drawn.each(x, y, [&](std::size_t i) {
-      const FragmentBound of = bounds.of_fragment(i);
-      ++fragments;
-      if (!of.reason.empty()) meter.suspect(of.reason);
-      const Vec4<double> sum = of.color + glm::abs(of.line_shift) + of.apart;
-      bound += std::max({sum.r, sum.g, sum.b, sum.a});
-      const Records<double>& r = candidate.records;
-      const Merge& merge = bounds.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
-      combined = combined || merge.logic_op;
-      for (int c = 0; c < 4; ++c) {
-        if (merge.logic_op) on_clear[c] = on_clear[c] || cleared[c];
-        if (!merge.logic_op && !merge.blend && merge.color_mask[c]) cleared[c] = false;
-      }
-      certain = certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
-                codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);
-    });
-    // Error of a fragment enters three times: as source colour, in the source's factor, and in the factor of the
-    // frame's colour, which is at most `held` (1; in float the number of fragments).
-    const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
-    bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
-    combined = combined && scale > 0;
-    for (int c = 0; c < 4; ++c) {
-      const double v = a.color(x, y)[c], w = b.color(x, y)[c];
-      const bool unknown = !certain || (on_clear[c] && cleared_codes(scene.frame, c) > 0);
-      const double allowed = codes * layers + cleared_codes(scene.frame, c);
-      const bool any_code = scale > 0 && allowed >= scale;  // so many layers that no code is wrong
-      if (open || !std::isfinite(bound) || (combined && unknown) || (!combined && any_code)) {
-        open_value(meter, v, place, w);
-      } else if (scale > 0) {
-        const double code = std::round(scale * v), code_ref = std::round(scale * w);
-        if (combined) {
-          meter.value(difference(code, code_ref), 0, place, code, code_ref);
-        } else {
-          meter.value(difference(code, code_ref), allowed, place, code, code_ref, std::floor(scale * bound));
-        }
-      } else {
-        meter.value(difference(v, w) / u, bound / u + 4 * layers * held, place, v, w);
-      }
-    }
-  });
-}
-
-Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
-                          const Legal& bounds, const Conventions& conventions, const Plane<double>& roundings) {
-  const bool shows_depth = !candidate.depth.empty();
-  std::string why;
-  if (shows_depth &&
-      !(same_size(candidate.depth, exact.depth, why) && same_size(candidate.depth, candidate.color, why)))
-    return mismatch("half code", why, candidate.depth.size());
-  const double scale = color_scale(scene.frame.color);
-  const bool codes = scale > 0;
-  const double unit = codes ? 0.5 / scale + 4 * u : u;
-  const StoredColors stored{conventions, scale};
-  const bool shows_winners = candidate.id.size() == candidate.color.size();
-  std::optional<glm::vec4> cleared;  // colour of the first background pixel
-  const auto is_cleared = [&](int x, int y) {
-    if (!shows_winners || candidate.id(x, y) != kBackground) return false;
-    return candidate.color(x, y) == (cleared ? *cleared : cleared.emplace(candidate.color(x, y)));
-  };
-  return compare_planes(candidate.color, exact.color, codes ? "half code" : "u", [&](Meter& meter, int x, int y) {
-    const std::int64_t id = shows_winners ? candidate.id(x, y) : -1;
-    const glm::vec4 &low = bounds.color_lo.empty() ? exact.color(x, y) : bounds.color_lo(x, y),
-                    &high = bounds.color_hi.empty() ? exact.color(x, y) : bounds.color_hi(x, y);
-    for (int c = 0; c < 4; ++c) {
-      const double v = candidate.color(x, y)[c];
-      const double least = stored.of_channel(low[c], c), most = stored.of_channel(high[c], c);
-      double off = outside(stored.middle(v), least, most);
-      // The clear colour, one for all pixels, may be rounded, and encoded, otherwise than fragments are.
-      if (is_cleared(x, y)) off = std::min(off, outside(v, low[c], high[c]));
-      const double tolerance = codes ? factor : roundings.empty() ? 0 : roundings(x, y);
-      meter.value(off / unit, tolerance, {x, y, id, "color", true}, v, least);
-      const double code = std::clamp(std::round(scale * v), 0.0, scale);
-      const bool is_code = !codes || std::abs(scale * v - code) <= scale * 2 * u;
-      meter.value(is_code ? 0 : kInfinite, 0, {x, y, id, "no code", true}, scale * v, code);
-    }
-    if (!shows_depth) return;
-    const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);
-    meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0, {x, y, id, "z, in steps", true}, z,
-                z_ref);
   });
 }
 

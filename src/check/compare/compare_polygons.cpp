@@ -262,8 +262,18 @@ class WholePolygon {
   std::vector<ClipVertex<double>> joined_;
 };
 
+// Holds each vertex of the parts to the polygon `whole`, within 2 `factor` u.
+template <class At>
+void within_whole(Meter& meter, std::span<const Vertices> parts, Vertices whole, const Corners& corners, double factor,
+                  const At& at) {
+  for (const Vertices part : parts) {
+    for (const ClipVertex<double>& v : part)
+      meter.value(distance_to_polygon(v.p_clip, whole) / (u * corners.scale), 2 * factor, at("outside"), 0, 0);
+  }
+}
+
 // Compares parts that do not join with an expected polygon of which some vertices coincide: each expected vertex must
-// lie within 2 `factor` u of a part. The vertices of the parts are not compared.
+// lie within 2 `factor` u of a part, and each vertex of the parts within 2 `factor` u of the expected polygon.
 template <class At>
 void compare_parts(Meter& meter, std::span<const Vertices> parts, Vertices whole, const Corners& corners, double factor,
                    const At& at) {
@@ -273,6 +283,7 @@ void compare_parts(Meter& meter, std::span<const Vertices> parts, Vertices whole
     for (const Vertices part : parts) least = std::min(least, distance_to_polygon(v.p_clip, part));
     meter.value(least / (u * corners.scale), 2 * factor, at("cut off"), 0, 0);
   }
+  within_whole(meter, parts, whole, corners, factor, at);
 }
 
 }  // namespace
@@ -324,7 +335,11 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
       if (!needs_no_cut(corners) &&
           may_vanish(mine.empty() ? b.vertices() : std::span(widest), corners.planes, tolerance)) {
         meter.ambiguous();
-        within_rounding(meter, a.vertices(), corners, factor, at);
+        if (a.parts().size() > 1) {
+          within_whole(meter, a.parts(), widest, corners, factor, at);
+        } else {
+          within_rounding(meter, a.vertices(), corners, factor, at);
+        }
       } else {
         meter.value(kInfinite, 0, at(mine.empty() ? "polygon lacking" : "polygon extra"), 0, 0);
       }

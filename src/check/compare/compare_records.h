@@ -95,8 +95,8 @@ struct FragmentSums {
 };
 FragmentSums fragment_sums(std::span<const Covered> fragments, std::span<const WindowTriangle<double>> triangles,
                            int width, int height);
-/// Whether planes.count, and planes.id_sum unless that is empty, are the sums of the records' fragments. False if the
-/// records hold no fragment, or if planes.count is empty.
+/// Whether planes.count, and planes.id_sum unless that is empty, are the sums of the records' fragments. False if
+/// planes.count is empty.
 bool are_sums_of(const Records<double>& records, const Planes& planes);
 /// compare_covered() with open pixels, where `legal` allows several counts (compare_coverage(), compare_planes.h). If a
 /// fragment differs at a pixel that is not open, differences at open pixels are ambiguous; if fragments at open pixels

@@ -75,6 +75,24 @@ class TexelsAtLevels {
   math::LevelRules rules_;
 };
 
+// Largest component of the texture of each fragment's draw, at least 1; 1 without one.
+class TexelMagnitudes {
+ public:
+  TexelMagnitudes(const Scene& scene, const Records<double>& records) : records_(records), draws_(scene) {
+    for (const Texture& texture : scene.textures) of_texture_.push_back(std::max(1.0, largest_texel(texture)));
+  }
+  double operator()(const Covered& c) const {
+    if (c.triangle >= records_.triangles.size()) return 1;
+    const Draw* draw = draws_.draw(records_.triangles[c.triangle].primitive);
+    return draw != nullptr && draw->texture ? of_texture_.at(draw->texture->texture) : 1;
+  }
+
+ private:
+  const Records<double>& records_;
+  DrawIndex draws_;
+  std::vector<double> of_texture_;
+};
+
 }  // namespace
 
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
@@ -83,8 +101,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   if (candidate.texels.size() != count || reference.texels.size() != count) {
     return mismatch("u", "not a texel for each fragment", std::max(candidate.texels.size(), count));
   }
-  double magnitude = 1;
-  for (const Texture& texture : scene.textures) magnitude = std::max(magnitude, largest_texel(texture));
+  const TexelMagnitudes magnitudes(scene, candidate);
   const LodRounding rounding(scene, candidate);
   const TexelsAtLevels at_level(scene, candidate, conventions);
   Meter meter("u");
@@ -94,6 +111,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
     const Covered& c = candidate.covered[i];
     const Texel<double>&a = candidate.texels[i], &b = reference.texels[i];
     const bool lacks_lod = is_foreign && std::isnan(a.lod);
+    const double magnitude = magnitudes(c);
     const TexelRange range = !is_foreign ? TexelRange{} : lacks_lod ? (*legal)[i] : at_level(i);
     for (int k = 0; k < 4; ++k) {
       const double off =

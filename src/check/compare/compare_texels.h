@@ -12,7 +12,7 @@
 namespace plumbline::check {
 
 /// Compares the candidate's texels with exact's at the candidate's own texture coordinates and levels of detail.
-/// Tolerance of texels: `factor` u of the largest component of all the scene's textures (at least of 1). Tolerance of
+/// Tolerance of texels: `factor` u of the largest component of the draw's texture (at least of 1). Tolerance of
 /// levels of detail (lambda): `factor` u of |lambda| (at least of 1), plus the rounding of lambda in double; a lambda
 /// below -16, where every texture is magnified, counts as -16.
 ///

@@ -130,7 +130,7 @@ void swap_red_and_blue(std::vector<T>& records) {
 }
 
 /// Whether the sample at `place` [1/256 pixel] from the pixel's centre lies exactly on the line through two of the
-/// triangle's snapped corners, even beyond these corners. True for every sample where two snapped corners coincide.
+/// triangle's snapped corners, even beyond these corners. Two corners that coincide have no line.
 bool on_an_edge(const WindowTriangle<double>& triangle, glm::ivec2 pixel, glm::ivec2 place);
 
 }  // namespace plumbline::check

@@ -213,7 +213,7 @@ bool on_an_edge(const WindowTriangle<double>& t, glm::ivec2 pixel, glm::ivec2 pl
   const glm::i64vec2 p = glm::i64vec2(pixel) * std::int64_t{kSubpixel} + glm::i64vec2(place);
   for (std::size_t k = 0; k < 3; ++k) {
     const glm::i64vec2 a(t.v[k].snapped), b(t.v[(k + 1) % 3].snapped);
-    if ((b.x - a.x) * (p.y - a.y) == (b.y - a.y) * (p.x - a.x)) return true;
+    if (a != b && (b.x - a.x) * (p.y - a.y) == (b.y - a.y) * (p.x - a.x)) return true;
   }
   return false;
 }

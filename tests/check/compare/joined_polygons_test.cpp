@@ -172,5 +172,43 @@ TEST_F(JoinedPolygons, PartsMayShareAPieceOfAnEdge) {
   EXPECT_TRUE(fails(with_end(0, 1e-4)));
 }
 
+// Triangles of one primitive, of these corners.
+Change triangles_of_corners(const std::vector<std::array<glm::dvec4, 3>>& triangles) {
+  return [=](Records<double>& r) {
+    r.polygons = {};
+    for (const auto& corners : triangles) {
+      r.polygons.polygons.push_back({0, static_cast<std::uint32_t>(r.polygons.vertices.size()), 3});
+      for (const glm::dvec4& p : corners) r.polygons.vertices.push_back({p, r.lit[0].color, false});
+    }
+  };
+}
+
+// A corner on the right plane, of which rounding may leave a point or nothing.
+TEST_F(JoinedPolygons, PartsOfAPrimitiveThatMayVanishLieWhereItDoes) {
+  const glm::dvec4 corner(1, 0, 0, 1);
+  set({{corner, {2, 0.5, 0, 1}, {2, -0.5, 0, 1}}});
+  const Change nothing = [](Records<double>& r) { r.polygons = {}; };
+  const std::array<glm::dvec4, 3> there = {corner, corner, corner};
+  EXPECT_TRUE(passes(compare(triangles_of_corners({there, there}), nothing)));
+  const std::array<glm::dvec4, 3> far = {glm::dvec4(-0.9, -0.9, 0, 1), {0.1, -0.9, 0, 1}, {0.1, 0.9, 0, 1}},
+                                  apart = {glm::dvec4(-0.5, 0.2, 0.3, 1), {-0.4, 0.2, 0.3, 1}, {-0.4, 0.3, 0.9, 1}};
+  EXPECT_TRUE(fails(compare(triangles_of_corners({far, apart}), nothing)));
+}
+
+// Two of the expected vertices coincide but for 1e-8: parts need not join, and lie in the polygon.
+TEST_F(JoinedPolygons, PartsThatDoNotJoinLieInThePolygon) {
+  const std::array<glm::dvec4, 3> all = {glm::dvec4(-0.5, -0.5, 0, 1), {0.5, -0.5, 0, 1}, {0, 0.5, 0, 1}};
+  set({{all[0], all[1], all[2]}});
+  const Change expected = [&](Records<double>& r) {
+    r.polygons.vertices.push_back({all[2] + glm::dvec4(1e-8, 0, 0, 0), r.lit[2].color, false});
+    r.polygons.polygons[0].count = 4;
+  };
+  const glm::dvec4 middle = (all[1] + all[2]) / 2.0, beside = middle - glm::dvec4(1e-4, 0, 0, 0);
+  const std::array<glm::dvec4, 3> lower = {all[0], all[1], middle}, upper = {all[0], beside, all[2]},
+                                  outside = {glm::dvec4(-0.9, 0.9, 0.9, 1), {-0.8, 0.9, 0.9, 1}, {-0.9, 0.8, 0.1, 1}};
+  EXPECT_TRUE(fails(compare(triangles_of_corners({all, outside}), expected)));
+  EXPECT_TRUE(passes(compare(triangles_of_corners({lower, upper}), expected)));
+}
+
 }  // namespace
 }  // namespace plumbline::check

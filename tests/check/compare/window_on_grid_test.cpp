@@ -47,6 +47,23 @@ TEST_F(Window, ATriangleThatMayHaveNoAreaMayBeThereOrNot) {
   }
 }
 
+// Half way between two places of a coarse grid there is a second nearest place; elsewhere, and off the grid, none.
+TEST_F(Window, AStrangersSecondNearestPlaceIsOnItsGrid) {
+  Conventions grid;
+  grid.subpixel_bits = 4;  // places 16/256 pixel apart
+  const auto passes_at = [&](double place, int snapped) {
+    Records<double> a = on_grid(records, grid, true);
+    a.triangles[0].v[0].p_win.x = 10.5 + place / 256;
+    a.triangles[0].v[0].snapped.x = 10 * 256 + snapped;
+    return passes(compare_window(scene, a, a, kFactor, grid, 0, FacingArea::either));
+  };
+  EXPECT_TRUE(passes_at(3, 0));
+  EXPECT_FALSE(passes_at(3, 6)) << "as near, and off the grid";
+  EXPECT_FALSE(passes_at(3, 16));
+  EXPECT_TRUE(passes_at(8, 0));
+  EXPECT_TRUE(passes_at(8, 16));
+}
+
 // Corners in one place: the colours tell where the triangle begins.
 TEST_F(Window, ATriangleOfNoAreaMayBeginAtAnyCorner) {
   auto& p = records.polygons;
