@@ -6,6 +6,7 @@
 
 #include "capture/fragment_outcomes.h"
 #include "check/bounds/bounds.h"
+#include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/judge/rows.h"
 #include "renderers/pipeline_renderer.h"
@@ -223,6 +224,30 @@ TEST(OffsetSlope, OfAStrangerIsTheGradientsLengthOrItsLargerComponent) {
   EXPECT_GT(differing(1, 0), 100u) << "ours is the larger component";
   EXPECT_GT(differing(2, 1), 100u);
   EXPECT_GT(differing(-1, 1), 100u);
+}
+
+// Of two legal depths, the one counts that is nearest in its own tolerance: 1 step of the background, whose rounding no
+// convention says, 0.501 of a fragment that is rounded to the nearest code.
+TEST(LegalDepths, ADepthIsComparedWithTheAnswerThatAllowsIt) {
+  Scene scene;
+  scene.frame.width = scene.frame.height = 1;
+  constexpr double kScale = 16777215, kCode = 8388608;
+  const auto compared = [&](double background, double fragment) {
+    Planes planes;
+    planes.depth = Plane<double>(1, 1, kCode / kScale);
+    Legal legal;
+    legal.certain = Plane<std::uint32_t>(1, 1, 0), legal.possible = Plane<std::uint32_t>(1, 1, 1);
+    legal.first = {0, 2};
+    legal.answers.resize(2);
+    legal.answers[0].z_lo = legal.answers[0].z_hi = (kCode + background) / kScale;
+    legal.answers[1].primitive = 0;
+    legal.answers[1].z_lo = legal.answers[1].z_hi = (kCode + fragment) / kScale;
+    return compare_legal_depth(scene, planes, legal, 0.501,
+                               {.has_codes = true, .rounding = Conventions::Rounding::nearest});
+  };
+  EXPECT_TRUE(passes(compared(-0.7, -0.61)));
+  EXPECT_TRUE(passes(compared(1.2, 0.4)));
+  EXPECT_TRUE(fails(compared(-1.2, -0.61)));
 }
 
 }  // namespace
