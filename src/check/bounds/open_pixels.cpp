@@ -199,7 +199,8 @@ class Removal {
     out_.records.covered = from.records.covered;
   }
   void add(const Covered& c, std::uint32_t primitive) {
-    if (c.x >= open_.width() || c.y >= open_.height() || out_.planes.count.size() != open_.size()) return;
+    const bool are_counted = out_.planes.count.size() == open_.size() && out_.planes.id_sum.size() == open_.size();
+    if (c.x >= open_.width() || c.y >= open_.height() || !are_counted) return;
     open_(c.x, c.y) = 1;
     out_.planes.count(c.x, c.y) -= 1;  // wraps: removing what was never counted shows
     out_.planes.id_sum(c.x, c.y) -= id_weight(primitive);

@@ -45,9 +45,10 @@ Measurement each(const char* what, const std::string& unit, std::size_t candidat
   return meter.done();
 }
 
-// Distance from |value| to the next float.
+// Distance from |value| to the next larger float; of the largest one, to the next smaller.
 inline double ulp(double value) {
   const auto f = static_cast<float>(std::abs(value));
+  if (f == std::numeric_limits<float>::max()) return 0x1p104;
   return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
 }
 

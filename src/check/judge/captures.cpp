@@ -31,7 +31,8 @@ bool more_than(std::uint64_t most_fragments, const Capture& capture) {
 
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments) {
   try {
-    if (most_fragments != ~std::uint64_t{0}) {
+    // A foreign candidate hands out all that it shows at once.
+    if (most_fragments != ~std::uint64_t{0} && candidate.info().profile != Profile::foreign) {
       Capture counted = candidate.capture(scene, {.records = kGeometryStages});
       if (more_than(most_fragments, counted)) return counted;
     }

@@ -16,8 +16,8 @@ namespace plumbline::check {
 /// Whether planes.count sums to more than `most_fragments`.
 bool more_than(std::uint64_t most_fragments, const Capture& capture);
 
-/// The candidate's records and planes; without records of fragments where these are too many or do not fit the memory
-/// budget. Throws what Renderer::capture() throws.
+/// The candidate's records and planes; without records of fragments where these do not fit the memory budget or, of our
+/// renderer, are too many. Throws what Renderer::capture() throws.
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments);
 
 /// Captures and refusals of the references, in their order.

@@ -14,6 +14,7 @@ std::optional<FailingStage> failing_stage(const Scene& scene, Renderer& candidat
   for (const Stage stage : stages_of(scene)) {
     try {
       if (info[stage].runs) candidate.run_stage(scene, stage, in);
+    } catch (const Unsupported&) {  // no failure
     } catch (const std::exception& e) {
       return FailingStage{stage, e.what()};
     }
