@@ -14,6 +14,7 @@
 
 #include "base/atomic_path.h"
 #include "images/image_codec.h"
+#include "scene/names.h"
 
 namespace plumbline {
 namespace {
