@@ -21,20 +21,20 @@ double place_error(const glm::dmat4& m,
 
 }  // namespace
 
-Known unit(const Known& a) {
+BoundedVector unit(const BoundedVector& a) {
   const double length = glm::length(a.v);
   if (!(length > 2 * a.error)) return {{0, 0, 1}, 2};
   return {a.v / length, chord(a.error / length) + 4 * kFloatRounding};
 }
 
-Known eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {
+BoundedVector eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {
   const glm::dvec3 p(mesh.positions[vertex]);
   return {glm::dvec3(m.model_view * glm::dvec4(p, 1)), place_error(m.model_view, p)};
 }
 
 // Error: 1 u by the matrix' entries and 3 u by the sum, of its terms; 3 u by normalising, or 6 u by rescaling's
 // divisor.
-Known eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {
+BoundedVector eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {
   const glm::dvec3 normal(mesh.normals[vertex]), scaled = m.normal * normal;
   const glm::dvec3 n = normal_in_eye_space(draw.normals, m.normal, normal);
   const double sum = 4 * glm::length(terms(m.normal, normal)) * glm::length(n) / glm::length(scaled);
@@ -54,7 +54,7 @@ double color_error(const Scene& scene, const Draw& draw, const Matrices<double>&
                    std::span<const double> light_errors, std::uint32_t vertex, LitPart part) {
   if (!is_lit_per_vertex(draw)) return kFloatRounding;
   const Mesh& mesh = scene.meshes[draw.mesh];
-  const Known p = eye_position(mesh, m, vertex), n = eye_normal(draw, mesh, m, vertex);
+  const BoundedVector p = eye_position(mesh, m, vertex), n = eye_normal(draw, mesh, m, vertex);
   return light_error(scene, material_at(scene, draw, part, vertex),
                      {glm::dvec4(p.v, 1), glm::dvec4(0), part.back ? -n.v : n.v}, {p.error, n.error, 0, light_errors},
                      lights);

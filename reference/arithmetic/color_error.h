@@ -22,15 +22,15 @@ double color_error(const Scene& scene, const Draw& draw, const Matrices<double>&
                    std::span<const double> light_errors, std::uint32_t vertex, LitPart part = {});
 
 /// A vector in eye space, and a bound on the length of its error.
-struct Known {
+struct BoundedVector {
   glm::dvec3 v;
   double error;
 };
 
 /// `a` at unit length; normalising adds 4 u. Where |a| <= 2 * error, no direction is certain: +z with an error of 2.
-Known unit(const Known& a);
+BoundedVector unit(const BoundedVector& a);
 /// Position and normal of the mesh's vertex number `vertex`, with the errors of float arithmetic.
-Known eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex);
-Known eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex);
+BoundedVector eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex);
+BoundedVector eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex);
 
 }  // namespace plumbline::math

@@ -102,7 +102,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     lit_part({true, true}, corner.back_secondary, corner.back_secondary_error);
     corner.z_eye = p_eye.z;
     corner.z_eye_error = 6 * kFloatRounding * (sizes(m.model_view) * glm::abs(p)).z;  // entries, products, sums
-    const Known place = eye_position(mesh, m, i), normal = eye_normal(draw, mesh, m, i);
+    const BoundedVector place = eye_position(mesh, m, i), normal = eye_normal(draw, mesh, m, i);
     corner.p_eye = place.v;
     corner.p_eye_error = place.error;
     corner.n_eye = normal.v;

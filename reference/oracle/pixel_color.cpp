@@ -135,8 +135,8 @@ bool FragmentColor::has_no_alpha() const {
 void FragmentColor::light_fragment(BoundedFour& color, BoundedFour& secondary) const {
   const BoundedFour p = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
   const BoundedFour n = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
-  const Known p_eye{glm::dvec3(p.value), p.bound};
-  Known n_eye = unit({glm::dvec3(n.value), n.bound});
+  const BoundedVector p_eye{glm::dvec3(p.value), p.bound};
+  BoundedVector n_eye = unit({glm::dvec3(n.value), n.bound});
   if (is_back()) n_eye.v = -n_eye.v;
   const bool follows = draw_.color_material != ColorMaterial::none && !scene_.meshes[draw_.mesh].colors.empty();
   const bool known = std::isfinite(p.bound + n_eye.error + color.bound) && n_eye.error < 1;

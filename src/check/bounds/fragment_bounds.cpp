@@ -272,13 +272,13 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
   const Draw& draw = draw_of(triangle.primitive);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
-  FragmentFours errors;
+  ShadeInputs errors;
   errors.color = plane.color_error(factor_) + glm::max(glm::abs(plane.line_shift_color), by_other_edges(i, nullptr)) +
                  lit_error(triangle.primitive, enlarged(triangle, c.x, c.y)) + mean_error(triangle, c.x, c.y);
   for (const Varying v : kAllVaryings) {
     if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
   }
-  const FragmentFours fours = fours_of(records_, i);
+  const ShadeInputs fours = shade_inputs_of(records_, i);
   if (draw.texture) {
     const TexelBound bound = texel(i);
     errors.texel =

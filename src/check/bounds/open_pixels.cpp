@@ -230,9 +230,9 @@ Capture triangles_alone(const Capture& from, const Wanted& wanted) {
 
 }  // namespace
 
-BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const Capture& reference,
-                           std::span<const std::uint32_t> turned, Renderer& referee) {
-  BesideTurned out{{}, {}, Plane<std::uint8_t>(scene.frame.width, scene.frame.height, 0)};
+WithoutTurned without_turned(const Scene& scene, const Capture& candidate, const Capture& reference,
+                             std::span<const std::uint32_t> turned, Renderer& referee) {
+  WithoutTurned out{{}, {}, Plane<std::uint8_t>(scene.frame.width, scene.frame.height, 0)};
   const auto is_turned = [&](const WindowTriangle<double>& t) {
     return std::ranges::binary_search(turned, t.primitive);
   };

@@ -58,13 +58,13 @@ class LegalWinners {
 /// Coverage of both sides without the primitives `turned`, which each side may legally draw as another face
 /// (legal_window.h, turned_outlines). `open`: 1 where a turned primitive covers the pixel on either side. `referee`
 /// computes the coverage of turned primitives; for lines of the reference, the reference's own records count.
-struct BesideTurned {
+struct WithoutTurned {
   /// Planes count and id_sum without `turned`; all records of window (`turned` with `corners` 0) and of coverage.
   Capture candidate, reference;
   Plane<std::uint8_t> open;
 };
-BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const Capture& reference,
-                           std::span<const std::uint32_t> turned, Renderer& referee);
+WithoutTurned without_turned(const Scene& scene, const Capture& candidate, const Capture& reference,
+                             std::span<const std::uint32_t> turned, Renderer& referee);
 
 /// Copies the candidate's planes but count and id_sum into the reference's where `open` is 1; returns how many pixels.
 std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference);

@@ -11,8 +11,8 @@
 
 namespace plumbline::check {
 
-FragmentFours fours_of(const Records<double>& records, std::size_t i) {
-  FragmentFours out;
+ShadeInputs shade_inputs_of(const Records<double>& records, std::size_t i) {
+  ShadeInputs out;
   if (i < records.attributes.size()) out.color = records.attributes[i].color;
   for (const Varying v : kAllVaryings) {
     if (i < records.varyings[v].fragments.size()) out[v] = records.varyings[v].fragments[i];
@@ -25,8 +25,8 @@ FragmentFours fours_of(const Records<double>& records, std::size_t i) {
 namespace {
 
 // The error of a fragment's light.
-Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, const FragmentFours& attributes,
-                         const FragmentFours& errors, const Roundings& roundings) {
+Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, const ShadeInputs& attributes,
+                         const ShadeInputs& errors, const Roundings& roundings) {
   const Vec4<double> anything(std::numeric_limits<double>::infinity());
   const auto length = [](const Vec4<double>& four) { return glm::length(Vec3<double>(four)); };
   const double n = length(attributes[Varying::normal]), dn = length(errors[Varying::normal]);
@@ -44,8 +44,8 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, con
 }
 
 // The larger of both faces' errors. `specular`: of the separate specular colour.
-Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, const FragmentFours& attributes,
-                         const FragmentFours& errors, const Roundings& roundings) {
+Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, const ShadeInputs& attributes,
+                         const ShadeInputs& errors, const Roundings& roundings) {
   Vec4<double> largest = light_error(scene, draw, {false, specular}, attributes, errors, roundings);
   if (scene.light_model.sides == LightModel::Sides::two)
     largest = glm::max(largest, light_error(scene, draw, {true, specular}, attributes, errors, roundings));
@@ -54,8 +54,8 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, co
 
 }  // namespace
 
-Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
-                         const FragmentFours& errors, const Roundings& roundings) {
+Vec4<double> shade_error(const Scene& scene, const Draw& draw, const ShadeInputs& attributes, const ShadeInputs& errors,
+                         const Roundings& roundings) {
   Vec4<double> color = attributes.color, error = errors.color;
   Vec4<double> low = color, high = color;  // of a colour that is unknown here: what light makes of a fragment
   const bool per_fragment = is_lit_per_fragment(draw), summed = draw.lit && scene.light_model.separate_specular;

@@ -110,19 +110,19 @@ struct StoredColors {
   }
 };
 
-inline double outside(double value, double low, double high) {
+inline double distance_outside(double value, double low, double high) {
   if (value >= low && value <= high) return 0;
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
 }
 
 /// Adds a value without a reference, such as a winner's colour where no fragment wins: differs only if not finite.
-inline void finite_value(Meter& meter, double value, const Place& place) {
+inline void add_finite_value(Meter& meter, double value, const Place& place) {
   meter.value(std::isfinite(value) ? 0 : kInfinite, 0, place, value, 0);
 }
 
 // Adds a value for which no bound can be computed (a triangle without area): any finite number is legal, and the item
 // counts as ambiguous.
-inline void open_value(Meter& meter, double value, const Place& place, double reference) {
+inline void add_open_value(Meter& meter, double value, const Place& place, double reference) {
   meter.ambiguous();
   meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);
 }

@@ -63,7 +63,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
     const Place place{x, y, id, "color", true};
     if (id == kBackground) {  // no fragment has a colour; merge judges the clear colour
       for (int c = 0; c < 4; ++c)
-        finite_value(meter, a.shaded(x, y)[c], place), finite_value(meter, b.shaded(x, y)[c], place);
+        add_finite_value(meter, a.shaded(x, y)[c], place), add_finite_value(meter, b.shaded(x, y)[c], place);
       return;
     }
     const FragmentBound bound = bounds.of_winner(id, x, y);
@@ -80,7 +80,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
       if (is_open && std::isnan(w) && std::isfinite(v)) {
         meter.ambiguous();
       } else if (is_open) {
-        open_value(meter, v, place, w);
+        add_open_value(meter, v, place, w);
       } else {
         meter.value(diff / u, bound.color[c] / u, place, v, w, bound.apart[c] / u);
       }
@@ -105,7 +105,7 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
       if (!std::isfinite(bound[c])) {
-        open_value(meter, v, {x, y, id, "color", true}, w);
+        add_open_value(meter, v, {x, y, id, "color", true}, w);
         continue;
       }
       double diff = difference(v, w);
@@ -165,7 +165,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
       const double allowed = codes * layers + cleared_codes(scene.frame, c);
       const bool any_code = scale > 0 && allowed >= scale;  // so many layers that no code is wrong
       if (open || !std::isfinite(bound) || (combined && unknown) || (!combined && any_code)) {
-        open_value(meter, v, place, w);
+        add_open_value(meter, v, place, w);
       } else if (scale > 0) {
         const double code = std::round(scale * v), code_ref = std::round(scale * w);
         if (combined) {
@@ -204,15 +204,15 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
     for (int c = 0; c < 4; ++c) {
       const double v = candidate.color(x, y)[c];
       const double least = stored.of_channel(low[c], c), most = stored.of_channel(high[c], c);
-      double off = outside(stored.middle(v), least, most);
+      double off = distance_outside(stored.middle(v), least, most);
       // The clear colour, one for all pixels, may be rounded, and encoded, otherwise than fragments are.
-      if (is_cleared(x, y)) off = std::min(off, outside(v, low[c], high[c]));
+      if (is_cleared(x, y)) off = std::min(off, distance_outside(v, low[c], high[c]));
       const double tolerance = codes ? factor : roundings.empty() ? 0 : roundings(x, y);
       const Place place{x, y, id, "color", true};
       if (std::isfinite(tolerance)) {
         meter.value(off / unit, tolerance, place, v, least);
       } else {
-        open_value(meter, v, place, least);
+        add_open_value(meter, v, place, least);
       }
       const double code = std::clamp(std::round(scale * v), 0.0, scale);
       const bool is_code = !codes || std::abs(scale * v - code) <= scale * 2 * u;

@@ -19,7 +19,7 @@ namespace plumbline::check {
 namespace {
 
 // `open(fragment)`: whether it is legal that the fragment is extra or missing.
-Measurement covered_but(const Records<double>& candidate, const Records<double>& reference, auto open) {
+Measurement covered_except(const Records<double>& candidate, const Records<double>& reference, auto open) {
   Meter meter("fragments");
   auto a = candidate.covered.begin();
   auto b = reference.covered.begin();
@@ -54,7 +54,7 @@ Measurement each_fragment(const char* what, const std::string& unit, const Recor
 }  // namespace
 
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference) {
-  return covered_but(candidate, reference, [](const Covered&) { return false; });
+  return covered_except(candidate, reference, [](const Covered&) { return false; });
 }
 
 FragmentSums fragment_sums(std::span<const Covered> fragments, std::span<const WindowTriangle<double>> triangles,
@@ -78,7 +78,7 @@ bool are_sums_of(const Records<double>& records, const Planes& planes) {
 namespace {
 
 // Whether rounding in float decides where a corner is snapped to: it lies between two places of the grid, but for 4 u.
-bool may_snap_otherwise(const WindowTriangle<double>& t, const Conventions& conventions) {
+bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions) {
   const double steps = std::exp2(conventions.subpixel_bits);
   const auto is_between = [&](double p_win) {
     const double middle = p_win * steps - 0.5;
@@ -89,8 +89,8 @@ bool may_snap_otherwise(const WindowTriangle<double>& t, const Conventions& conv
 
 // Fragments; those of samples on edges are ambiguous where open(triangle).
 template <class Open>
-Measurement covered_but_edges_of(const Records<double>& candidate, const Records<double>& reference,
-                                 const Conventions& conventions, glm::dvec2 sample, Open open) {
+Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
+                                    const Conventions& conventions, glm::dvec2 sample, Open open) {
   // Each side moves a corner by half a step of its grid in x and in y, at most; rounded down or up, by a whole step.
   const int bits = conventions.subpixel_bits;
   const double step = bits == Conventions::kFloat ? 1.0 / kSubpixel : std::exp2(-bits),
@@ -107,25 +107,26 @@ Measurement covered_but_edges_of(const Records<double>& candidate, const Records
     }
     return false;
   };
-  return covered_but(candidate, reference, on_an_edge);
+  return covered_except(candidate, reference, on_an_edge);
 }
 
 }  // namespace
 
-Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
-                                      const Conventions& conventions, glm::dvec2 sample) {
-  return covered_but_edges_of(candidate, reference, conventions, sample, [](const auto&) { return true; });
+Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
+                                         const Conventions& conventions, glm::dvec2 sample) {
+  return covered_except_edges_of(candidate, reference, conventions, sample, [](const auto&) { return true; });
 }
 
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions) {
-  return covered_but_edges_of(candidate, reference, conventions, glm::dvec2(0.5),
-                              [&](const WindowTriangle<double>& t) { return may_snap_otherwise(t, conventions); });
+  return covered_except_edges_of(
+      candidate, reference, conventions, glm::dvec2(0.5),
+      [&](const WindowTriangle<double>& t) { return has_corner_between_places(t, conventions); });
 }
 
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal) {
   const auto open = [&](const Covered& c) { return is_open(legal, candidate.planes, c.x, c.y); };
-  Measurement illegal = covered_but(candidate.records, reference, open);
+  Measurement illegal = covered_except(candidate.records, reference, open);
   return illegal.differing > 0 ? illegal : compare_covered(candidate.records, reference);
 }
 
@@ -152,12 +153,12 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
         const bool needed = apart > factor && c.triangle < candidate.triangles.size();
         if (needed && from_origin > 0) {  // a stranger's
           const auto [low, high] = std::minmax({b, b + offsets.by_length(candidate.triangles[c.triangle])});
-          apart = outside(a + middle * step, low, high) / step;
+          apart = distance_outside(a + middle * step, low, high) / step;
         }
         const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
         const double allowance = needed ? float_error(candidate.triangles[c.triangle], c) / step : 0;
         const Place place{c.x, c.y, c.triangle, "z"};
-        if (!std::isfinite(rounding + allowance)) return open_value(meter, a, place, b);
+        if (!std::isfinite(rounding + allowance)) return add_open_value(meter, a, place, b);
         meter.value(apart, factor + rounding, place, a, b, allowance);
       });
 }
@@ -244,7 +245,7 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
         const Draw* draw = draws.draw(candidate.triangles[c.triangle].primitive);
         if (draw == nullptr || is_plain(scene, *draw))
           return add(meter, a, b, Vec4<double>(u), 0, place, copies * u * glm::abs(b));
-        const Vec4<double> bound = shade_error(scene, *draw, fours_of(candidate, i), {}, {1});
+        const Vec4<double> bound = shade_error(scene, *draw, shade_inputs_of(candidate, i), {}, {1});
         for (int k = 0; k < 4; ++k) {
           if (!std::isfinite(bound[k])) {  // a light may come or go
             meter.ambiguous();

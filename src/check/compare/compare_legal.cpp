@@ -56,7 +56,7 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
   if (!is_cleared(answers)) return;
   const LegalAnswer& cleared = answers.front();
   const double z = candidate.depth(x, y), factor = tolerance(Profile::oracle, Stage::depth).factor;
-  meter.value(outside(z, cleared.z_lo, cleared.z_hi) / depth_step(scene.frame.depth, z), factor,
+  meter.value(distance_outside(z, cleared.z_lo, cleared.z_hi) / depth_step(scene.frame.depth, z), factor,
               {x, y, -1, "cleared z"}, z, cleared.z_lo);
 }
 
@@ -125,7 +125,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
     const double middle = declared.rounding ? z + middle_of(*declared.rounding) * step : z;
     const auto is_of_fragment = [&](const LegalAnswer& a) { return declared.rounding && a.primitive != kBackground; };
     const auto apart = [&](const LegalAnswer& a) {
-      return outside(is_of_fragment(a) ? middle : z, a.z_lo, a.z_hi) / step;
+      return distance_outside(is_of_fragment(a) ? middle : z, a.z_lo, a.z_hi) / step;
     };
     if (answers.empty()) {
       return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z"}, z, 0);
@@ -148,7 +148,7 @@ Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, co
   // No fragment has a colour where only the background is legal; merge judges the clear colour.
   const auto has_no_winner = [&](Meter& meter, int x, int y) {
     if (candidate.color.empty() || !is_cleared(answers_of_winner(legal, candidate, x, y))) return false;
-    for (int i = 0; i < 4; ++i) finite_value(meter, candidate.shaded(x, y)[i], {x, y, kBackground, "color"});
+    for (int i = 0; i < 4; ++i) add_finite_value(meter, candidate.shaded(x, y)[i], {x, y, kBackground, "color"});
     return true;
   };
   const auto holds = [](const LegalAnswer&, int, int) { return true; };
@@ -172,13 +172,14 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
       const glm::vec4 &color = candidate.color(x, y), &low = legal.color_lo(x, y), &high = legal.color_hi(x, y);
       for (int c = 0; c < 4; ++c) {
         if (!std::isfinite(low.x)) {
-          open_value(meter, color[c], {x, y, -1, "color"}, 0);
+          add_open_value(meter, color[c], {x, y, -1, "color"}, 0);
           continue;
         }
         const double value = stored.middle(color[c]), clear = scene.frame.clear_color[c];
-        double off = outside(value, stored.of_channel(low[c], c), stored.of_channel(high[c], c));
-        const bool may_be_clear = outside(clear, low[c], high[c]) <= rounding;  // rounded, and encoded, as it may be
-        if (may_be_clear) off = std::min(off, outside(color[c], low[c], high[c]));
+        double off = distance_outside(value, stored.of_channel(low[c], c), stored.of_channel(high[c], c));
+        const bool may_be_clear =
+            distance_outside(clear, low[c], high[c]) <= rounding;  // rounded, and encoded, as it may be
+        if (may_be_clear) off = std::min(off, distance_outside(color[c], low[c], high[c]));
         meter.value(off / rounding, factor, {x, y, -1, "color"}, color[c], low[c]);
       }
     });
@@ -190,7 +191,7 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
   const auto has_its_depth = [&](const LegalAnswer& a, int x, int y) {
     if (!has_depth) return true;
     const double z = candidate.depth(x, y);
-    return outside(z, a.z_lo, a.z_hi) / depth_step(scene.frame.depth, z) <= steps;
+    return distance_outside(z, a.z_lo, a.z_hi) / depth_step(scene.frame.depth, z) <= steps;
   };
   return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, stored, factor,
                              clear_depth, has_its_depth, false);

@@ -142,7 +142,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
       return;
     }
-    if (others_left_it(x, y)) return open_value(meter, z, place, z_ref);
+    if (others_left_it(x, y)) return add_open_value(meter, z, place, z_ref);
     const DepthLimits limits = depth_limits(draws, id);
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y, limits);
     double bound = bounds.depth + offsets.of(candidate.records, id, x, y),
@@ -157,7 +157,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       bound = std::max(bound, its_bound);
       diff = std::min(diff, difference(z + apart, z_ref));
     });
-    if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
+    if (!std::isfinite(bound)) return add_open_value(meter, z, place, z_ref);
     meter.value(diff / u, factor * bound, place, z, z_ref, step / u);
   });
 }

@@ -82,8 +82,8 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// ambiguous where its sample is no farther from an edge of the candidate's triangle than the edge may be moved by
 /// snapping to the declared grid (none: 1/256 pixel) and by snapping to 1/256 pixel together. `sample`: sample position
 /// [pixels from the pixel's corner of smallest coordinates].
-Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
-                                      const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5));
+Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
+                                         const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5));
 /// compare_covered() for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Fragments at
 /// edges are ambiguous only in triangles with a corner within 4 u of the middle between two grid positions.
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,

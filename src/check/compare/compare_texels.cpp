@@ -115,7 +115,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
     const TexelRange range = !is_foreign ? TexelRange{} : lacks_lod ? (*legal)[i] : at_level(i);
     for (int k = 0; k < 4; ++k) {
       const double off =
-          is_foreign ? outside(a.color[k], range.lo[k], range.hi[k]) : difference(a.color[k], b.color[k]);
+          is_foreign ? distance_outside(a.color[k], range.lo[k], range.hi[k]) : difference(a.color[k], b.color[k]);
       meter.value(off / (u * magnitude), factor, {c.x, c.y, c.triangle, "texel"}, a.color[k], b.color[k]);
     }
     if (lacks_lod) {
@@ -124,8 +124,8 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
     }
     const double lod = std::max(a.lod, kLeastLod), exact = std::max(b.lod, kLeastLod);
     const double unit = u * std::max(1.0, std::abs(exact));
-    const double off = is_foreign && !is_per_pixel ? outside(lod, std::max((*legal)[i].lambda_lo, kLeastLod),
-                                                             std::max((*legal)[i].lambda_hi, kLeastLod))
+    const double off = is_foreign && !is_per_pixel ? distance_outside(lod, std::max((*legal)[i].lambda_lo, kLeastLod),
+                                                                      std::max((*legal)[i].lambda_hi, kLeastLod))
                                                    : difference(lod, exact);
     meter.value(off / unit, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
                 off <= factor * unit ? 0 : rounding(c) / unit);
@@ -148,7 +148,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
     if (id != b.id(x, y)) return;
     if (id == kBackground) {
       for (const glm::vec4& texel : {a.texel(x, y), b.texel(x, y)}) {
-        for (int c = 0; c < 4; ++c) finite_value(meter, texel[c], {x, y, id, "texel", true});
+        for (int c = 0; c < 4; ++c) add_finite_value(meter, texel[c], {x, y, id, "texel", true});
       }
       return;
     }
@@ -185,7 +185,8 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
     if (!beyond(a.texel(x, y))) meter.suspect(reason);
     for (int c = 0; c < 4; ++c) {
       const double v = a.texel(x, y)[c], w = b.texel(x, y)[c], lo = bound.range.lo[c], hi = bound.range.hi[c];
-      meter.value(std::max(outside(v, lo, hi), outside(w, lo, hi)) / u, bound.slack[c] / u, place, v, w);
+      meter.value(std::max(distance_outside(v, lo, hi), distance_outside(w, lo, hi)) / u, bound.slack[c] / u, place, v,
+                  w);
     }
   });
   if (open == 0) return m;

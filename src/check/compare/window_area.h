@@ -7,10 +7,10 @@
 
 namespace plumbline::check {
 
-inline constexpr auto kAsItLies = [](const WindowVertex<double>& v) { return glm::dvec2(v.p_win); };
+inline constexpr auto kUnsnapped = [](const WindowVertex<double>& v) { return glm::dvec2(v.p_win); };
 inline constexpr auto kSnapped = [](const WindowVertex<double>& v) { return glm::dvec2(v.snapped); };
 
-/// Twice the signed area of the corners' positions, by kAsItLies [pixel^2] or by kSnapped [(1/256 pixel)^2]. Positive:
+/// Twice the signed area of the corners' positions, by kUnsnapped [pixel^2] or by kSnapped [(1/256 pixel)^2]. Positive:
 /// counter-clockwise with y up.
 template <class Place>
 double twice_area(const WindowTriangle<double>& t, Place place) {

@@ -165,7 +165,7 @@ std::vector<glm::ivec2> worst_pixels(const Scene& scene, const SceneVerdict& ver
 }
 
 // Judges stages 6 to 9 at worst_pixels() alone, where the scene has too many fragments to judge all of them.
-void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
+void judge_worst_pixels(Pass& pass, const Finder& find, Renderer& candidate) {
   const std::vector<glm::ivec2> pixels = worst_pixels(find.scene, pass.verdict);
   if (pixels.empty()) return;
   try {
@@ -181,8 +181,8 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   }
 }
 
-Pass look_at(const Scene& of_dialect, Renderer& candidate, std::span<const Reference> references,
-             std::uint64_t most_fragments, Explain explain) {
+Pass diagnose_pass(const Scene& of_dialect, Renderer& candidate, std::span<const Reference> references,
+                   std::uint64_t most_fragments, Explain explain) {
   BothCaptures drawn;
   Pass pass{judge(of_dialect, candidate, references, &drawn, most_fragments), {}, {}, {}, {}};
   const Conventions conventions = candidate.info().conventions;
@@ -206,7 +206,7 @@ Pass look_at(const Scene& of_dialect, Renderer& candidate, std::span<const Refer
     pass.findings.push_back(Finder{scene, *referee, explain, conventions, foreign}(pass.repaired, c));
   }
   if (referee != nullptr && lacks_fragment_records(pass.repaired))
-    look_at_worst(pass, {scene, *referee, explain, conventions, foreign}, candidate);
+    judge_worst_pixels(pass, {scene, *referee, explain, conventions, foreign}, candidate);
   if (wrong.empty() && !pass.findings.empty()) return pass;
   const bool by_steps =
       foreign && std::ranges::all_of(wrong, [&](Stage s) { return differs_by_steps(pass.verdict, s); });
@@ -273,7 +273,7 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
   std::vector<Plane<glm::vec4>> colors;
   const std::vector<Scene> scenes = math::pass_scenes(scene);
   for (const Scene& pass : scenes) {
-    passes.push_back(look_at(pass, candidate, references, most_fragments / scenes.size(), explain));
+    passes.push_back(diagnose_pass(pass, candidate, references, most_fragments / scenes.size(), explain));
     verdicts.push_back(passes.back().verdict);
     colors.push_back(std::move(passes.back().color));
     if (!first) first = passes.back().first;
@@ -319,7 +319,7 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
   Diagnosis out;
   std::optional<Finding> first;
   if (!antialiased(scene)) {
-    Pass pass = look_at(scene, candidate, references, most_fragments, explain);
+    Pass pass = diagnose_pass(scene, candidate, references, most_fragments, explain);
     out.verdict = std::move(pass.verdict);
     out.findings = std::move(pass.findings);
     first = std::move(pass.first);

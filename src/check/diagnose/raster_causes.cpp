@@ -71,7 +71,7 @@ bool box_one_short(const Evidence& e) {
 // Whether the area of a triangle, unsnapped or snapped, is below half a pixel.
 bool is_small(const WindowTriangle<double>& t) {
   return t.corners == 3 &&
-         (std::abs(twice_area(t, kAsItLies)) < 1 || std::abs(twice_area(t, kSnapped)) < kSubpixel * kSubpixel);
+         (std::abs(twice_area(t, kUnsnapped)) < 1 || std::abs(twice_area(t, kSnapped)) < kSubpixel * kSubpixel);
 }
 
 // Whether no triangle of less than half a pixel's area covers anything, and others differ only on edges.

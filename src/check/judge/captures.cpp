@@ -42,9 +42,9 @@ Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_
   }
 }
 
-Answers ask_references(const Scene& scene, std::span<const Reference> references, bool legal,
-                       const Conventions& conventions) {
-  Answers out{std::vector<Capture>(references.size()), {}};
+ReferenceCaptures capture_references(const Scene& scene, std::span<const Reference> references, bool legal,
+                                     const Conventions& conventions) {
+  ReferenceCaptures out{std::vector<Capture>(references.size()), {}};
   for (std::size_t i = 0; i < references.size(); ++i) {
     Renderer* const renderer = references[i].renderer;
     out.refusals.push_back(renderer == nullptr ? Refusal{Outcome::missing, "not built in"} : refusal_of([&] {

@@ -21,15 +21,15 @@ bool more_than(std::uint64_t most_fragments, const Capture& capture);
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments);
 
 /// Captures and refusals of the references, in their order.
-struct Answers {
+struct ReferenceCaptures {
   std::vector<Capture> captures;
   std::vector<std::optional<Refusal>> refusals;
 };
 
 /// Captures of the references: geometry records; coverage records where lines are drawn; planes. Planes are omitted for
 /// referees, and for oracles without `legal`. Legal answers are captured if `legal` is set and the budget allows.
-Answers ask_references(const Scene& scene, std::span<const Reference> references, bool legal,
-                       const Conventions& conventions);
+ReferenceCaptures capture_references(const Scene& scene, std::span<const Reference> references, bool legal,
+                                     const Conventions& conventions);
 
 /// Legal answers at the pixels where a reference has another winner than the candidate; empty where the oracle fails.
 Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,

@@ -26,7 +26,7 @@ void judge_by_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, c
   }
   if (!has_plane(c.candidate.planes, stage))
     return c.skip(name, stage, Outcome::unsupported, "it shows no plane of it");
-  ask_oracle(c, legal, stage, name);
+  compare_with_legal(c, legal, stage, name);
 }
 
 // The referee's matrices and vertices of the scene. It judges the later stages from the candidate's own records.
@@ -41,8 +41,8 @@ void judge_by_referee(const SceneJudgement& c, const Records<double>& theirs, St
         &row);
   } else if (stage == Stage::vertex) {
     const Tolerance& row = tolerance(Profile::exact, stage, "scene");
-    Records<double> made_of;  // a stranger's
-    c.add(name, stage, compare_vertices(c.scene, vertex_records(c, made_of), theirs, row.factor, row.factor, inversion),
+    Records<double> changed;  // copy of a foreign candidate's records
+    c.add(name, stage, compare_vertices(c.scene, vertex_records(c, changed), theirs, row.factor, row.factor, inversion),
           &row);
   }
 }

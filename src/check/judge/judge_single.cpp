@@ -72,7 +72,7 @@ class DrawnAsMade {
 };
 
 // The last reference that judges single stages and answered; null: there is none.
-Renderer* answering_referee(std::span<const Reference> references, const Answers& answers) {
+Renderer* answering_referee(std::span<const Reference> references, const ReferenceCaptures& answers) {
   Renderer* out = nullptr;
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (!answers.refusals[i] && is_referee(references[i].renderer->info())) out = references[i].renderer;
@@ -81,7 +81,7 @@ Renderer* answering_referee(std::span<const Reference> references, const Answers
 }
 
 // The first legal answers of the whole frame; null: nobody gave any.
-const Legal* first_legal(const Answers& answers) {
+const Legal* first_legal(const ReferenceCaptures& answers) {
   const auto first = std::ranges::find_if(answers.captures, [](const Capture& c) { return !c.legal.empty(); });
   return first != answers.captures.end() ? &first->legal : nullptr;
 }
@@ -106,7 +106,8 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     return verdict;
   }
   const SceneByConventions seen(scene, conventions);
-  Answers answers = ask_references(scene, references, !drew || !more_than(most_fragments, mine), conventions);
+  ReferenceCaptures answers =
+      capture_references(scene, references, !drew || !more_than(most_fragments, mine), conventions);
   Renderer* const referee = answering_referee(references, answers);
   const Legal* legal = first_legal(answers);
   Legal where_apart;

@@ -17,7 +17,7 @@ void judge_from_scene(const SceneJudgement& c, const Capture& theirs, const Rend
 void side_by_side(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name);
 
 /// Appends the row that compares coverage, depth, colour or visibility with an oracle's legal answers (Kind::legal).
-void ask_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, const JudgeId& name);
+void compare_with_legal(const SceneJudgement& c, const Legal& legal, Stage stage, const JudgeId& name);
 
 /// Appends the row `name` (Kind::per_stage, repaired or at_worst): the referee runs the stage on the candidate's
 /// records, and compare_stage() compares the result.

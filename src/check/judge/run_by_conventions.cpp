@@ -158,15 +158,15 @@ Capture cover_by_rule(Renderer& referee, const Scene& scene, const Capture& in, 
 // ---- depth, attributes, texture
 
 bool is_turned_over(const WindowTriangle<double>& t) {
-  const double lies = twice_area(t, kAsItLies), snapped = twice_area(t, kSnapped);
+  const double lies = twice_area(t, kUnsnapped), snapped = twice_area(t, kSnapped);
   return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0 ? snapped <= 0 : snapped >= 0);
 }
 
 // Snapped corners that face as the unsnapped ones; exact reads nothing but the facing from them. (It interpolates
 // between the snapped corners of triangles that snapping turns over: reference/exact/barycentric.h.)
-void face_as_it_lies(WindowTriangle<double>& t) {
+void face_unsnapped(WindowTriangle<double>& t) {
   if (!is_turned_over(t)) return;
-  const int up = twice_area(t, kAsItLies) > 0 ? kSubpixel : -kSubpixel;
+  const int up = twice_area(t, kUnsnapped) > 0 ? kSubpixel : -kSubpixel;
   t.v[0].snapped = {0, 0}, t.v[1].snapped = {kSubpixel, 0}, t.v[2].snapped = {0, up};
 }
 
@@ -197,7 +197,7 @@ Capture interpolate(Renderer& referee, const Scene& scene, Stage stage, const Ca
   Capture between = in;
   for (WindowTriangle<double>& t : between.records.triangles) {
     if (are_snapped) move_to_grid(t, conventions);
-    if (is_finer) face_as_it_lies(t);
+    if (is_finer) face_unsnapped(t);
     for (WindowVertex<double>& v : t.v) v.inv_w = is_affine ? 1 : v.inv_w;
   }
   return referee.run_stage(scene, stage, between, conventions);

@@ -174,11 +174,11 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
     c.add(name, stage, compare(row.factor), &row);
   };
   const auto varyings = [&](Measurement color) { return with_varyings(c, stage, std::move(color), theirs); };
-  Records<double> made_of;  // a stranger's
+  Records<double> changed;  // copy of a foreign candidate's records
   switch (stage) {
     case Stage::matrices: break;
     case Stage::vertex:
-      return add([&](double f) { return compare_vertices(c.scene, vertex_records(c, made_of), theirs, f, f); });
+      return add([&](double f) { return compare_vertices(c.scene, vertex_records(c, changed), theirs, f, f); });
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
     case Stage::clip: return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, true)); });
     case Stage::window:
@@ -186,12 +186,12 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
         return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c), facing_area(c)));
       });
     case Stage::coverage: {
-      const bool is_told = are_sums_of(c.candidate.records, c.candidate.planes);
-      if (c.foreign && is_told && knows_ties(c.scene, c.conventions))
+      const bool are_counted = are_sums_of(c.candidate.records, c.candidate.planes);
+      if (c.foreign && are_counted && knows_ties(c.scene, c.conventions))
         return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions));
-      if (covers_otherwise(c) && is_told) {
+      if (covers_otherwise(c) && are_counted) {
         const glm::dvec2 sample = 0.5 + glm::dvec2(sample_place(c.scene.frame)) / double{kSubpixel};
-        return c.add(name, stage, compare_covered_but_edges(c.candidate.records, theirs, c.conventions, sample));
+        return c.add(name, stage, compare_covered_except_edges(c.candidate.records, theirs, c.conventions, sample));
       }
       Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
       if (lacks_fragment_records(c.candidate))

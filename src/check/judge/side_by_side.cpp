@@ -106,16 +106,16 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
   const auto add = [&](Measurement m, std::string_view part = "", std::string note = "") {
     c.add(name, stage, std::move(m), &tolerance(c.profile, stage, part), std::move(note));
   };
-  Records<double> made_of;  // a stranger's
+  Records<double> changed;  // copy of a foreign candidate's records
   switch (stage) {
     case Stage::matrices: return add(compare_rounded_matrices(mine, theirs.records, factor_of(stage)));
     case Stage::vertex:
-      return add(compare_vertices(c.scene, vertex_records(c, made_of), theirs.records, 0, factor_of(stage),
+      return add(compare_vertices(c.scene, vertex_records(c, changed), theirs.records, 0, factor_of(stage),
                                   Inversion::in_float));
     case Stage::light: return add(compare_lit(c.scene, mine, theirs.records, factor_of(stage), {}, kOfMesa));
     case Stage::clip:
-      if (c.foreign) made_of = cut_at_sides(mine);
-      return add(compare_polygon_positions(c.foreign ? made_of : mine, theirs.records, factor_of(stage)));
+      if (c.foreign) changed = cut_at_sides(mine);
+      return add(compare_polygon_positions(c.foreign ? changed : mine, theirs.records, factor_of(stage)));
     case Stage::window:
       return add(
           compare_window_equal(mine, theirs.records, factor_of(stage), turned_outlines(c.scene, mine, theirs.records)));
@@ -157,12 +157,12 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
 // faces: coverage leaves these out, later stages treat the pixels that they cover as open. The rows of exact per stage
 // judge turned outlines. False: nothing was compared, because the stage comes before coverage, no outline is turned, or
 // the coverage of lines is unknown.
-bool compare_beside_turned(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
-  const bool lines_untold = draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate);
-  if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
+bool compare_without_turned(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
+  const bool lacks_line_coverage = draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate);
+  if (stage < Stage::coverage || c.referee == nullptr || lacks_line_coverage) return false;
   const std::vector<std::uint32_t> turned = turned_outlines(c.scene, c.candidate.records, theirs.records);
   if (turned.empty()) return false;
-  const BesideTurned beside = beside_turned(c.scene, c.candidate, theirs, turned, *c.referee);
+  const WithoutTurned beside = without_turned(c.scene, c.candidate, theirs, turned, *c.referee);
   if (stage == Stage::coverage) {
     compare_covers(c.with_open(turned.size()), beside.candidate, beside.reference, name);
   } else {
@@ -177,7 +177,7 @@ bool compare_beside_turned(const SceneJudgement& c, const Capture& theirs, Stage
 
 void side_by_side(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const std::size_t before = c.rows.size();
-  if (!compare_beside_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
+  if (!compare_without_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
   if (c.rows.size() == before) return;
   // Depths left in the frame may all be codes (such as the clear depth's) although earlier tests compared depths of
   // another format: a difference is then no evidence.

@@ -23,7 +23,7 @@ Scene fogged(float texel) {
 }
 
 double error_in(const Scene& scene, float texel) {
-  FragmentFours of, errors;
+  ShadeInputs of, errors;
   of[Varying::position] = {0, 0, -5, 1};
   of[Varying::normal] = {0, 0, 1, 0};
   of.texel = {texel, texel, texel, 1};

@@ -181,7 +181,7 @@ TEST_F(Outline, WhatTurnedOutlinesCoverIsTakenOutOfCoverage) {
   const Capture mine = capture_of(back()), theirs = capture_of(front());
   ASSERT_NE(mine.planes.count.values(), theirs.planes.count.values());
   const std::vector<std::uint32_t> numbers = {0};
-  const BesideTurned beside = beside_turned(scene, mine, theirs, numbers, *exact);
+  const WithoutTurned beside = without_turned(scene, mine, theirs, numbers, *exact);
   EXPECT_EQ(beside.candidate.planes.count.values(), beside.reference.planes.count.values());
   EXPECT_EQ(beside.candidate.planes.id_sum.values(), beside.reference.planes.id_sum.values());
   std::size_t open = 0;
@@ -194,7 +194,7 @@ TEST_F(Outline, WhatTurnedOutlinesCoverIsTakenOutOfCoverage) {
   EXPECT_GE(open, 20u);
   Capture more = mine;
   more.planes.count(3, 3) += 1;
-  EXPECT_NE(beside_turned(scene, more, theirs, numbers, *exact).candidate.planes.count(3, 3), 0u)
+  EXPECT_NE(without_turned(scene, more, theirs, numbers, *exact).candidate.planes.count(3, 3), 0u)
       << "what is no outline's stays";
 }
 

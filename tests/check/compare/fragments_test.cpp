@@ -59,11 +59,12 @@ TEST_F(Fragments, CoveredOnAnEdgeIsOpenToADeclaredTieRule) {
     return out;
   };
   const Conventions conventions;
-  EXPECT_TRUE(fails(compare_covered_but_edges(with(7, 3), records, conventions, {0.25, 0.5}))) << "of another sample";
+  EXPECT_TRUE(fails(compare_covered_except_edges(with(7, 3), records, conventions, {0.25, 0.5})))
+      << "of another sample";
   for (const bool extra : {true, false}) {
     const auto compare = [&](const Records<double>& other) {
-      return extra ? compare_covered_but_edges(other, records, conventions)
-                   : compare_covered_but_edges(records, other, conventions);
+      return extra ? compare_covered_except_edges(other, records, conventions)
+                   : compare_covered_except_edges(records, other, conventions);
     };
     EXPECT_EQ(compare(with(7, 3)).differing, 0u);
     EXPECT_EQ(compare(with(7, 3)).ambiguous, 1u);

@@ -46,7 +46,7 @@ DeclaredCodes declared_codes(const SceneJudgement& c) {
 
 }  // namespace
 
-void ask_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, const JudgeId& name) {
+void compare_with_legal(const SceneJudgement& c, const Legal& legal, Stage stage, const JudgeId& name) {
   const Planes& planes = c.candidate.planes;
   const auto add = [&](auto compare, std::optional<Stage> as = {}) {
     const Tolerance& row = tolerance(Profile::oracle, as.value_or(stage));
