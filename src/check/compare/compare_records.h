@@ -48,19 +48,6 @@ struct FloatRange {
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                         double factor, LitPart part = {}, const FloatRange& range = {});
 
-/// Compares clip polygons, primitive by primitive. Both sides must have the same number of vertices; a vertex of the
-/// mesh must be in the same place; a cut vertex must lie on the clip planes of its counterpart and in the plane of its
-/// triangle, colour included. Where a corner lies within `factor` u of a clip plane, the number of vertices is
-/// ambiguous. `flat_applies`: in flat draws, all colours are the provoking vertex'. `copies`: error of a vertex of the
-/// mesh [u of its triangle's largest coordinate, or channel], for a renderer that keeps clip positions in another form;
-/// a cut vertex within `copies` + `factor` u of a corner then counts as the corner.
-Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double factor, bool flat_applies = true, double copies = 0);
-/// Compares positions of clip polygons. Tolerance: `factor` u of |p_clip| + |w|, per coordinate; for references that
-/// rebuild p_clip from window positions.
-Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
-                                      double factor);
-
 /// Compares window triangles with exact ones. Tolerance of p_win and 1/w: `factor` u of their magnitudes. Snapped
 /// positions must be the candidate's own p_win, rounded to the grid of its conventions (under FacingArea::either, half
 /// way between two grid positions: to either). Another facing, and a missing or extra triangle, is legal where the

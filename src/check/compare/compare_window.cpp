@@ -3,10 +3,10 @@
 #include <cmath>
 #include <span>
 
+#include "check/bounds/matched_by_primitive.h"
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/legal_window.h"
-#include "check/compare/matched_by_primitive.h"
 #include "check/verdict/ledger.h"
 
 namespace plumbline::check {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "check/bounds/matched_by_primitive.h"
 #include "check/bounds/units.h"
-#include "check/compare/matched_by_primitive.h"
 #include "check/verdict/ledger.h"
 
 namespace plumbline::check {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "check/compare/matched_by_primitive.h"
+#include "check/bounds/matched_by_primitive.h"
 #include "check/diagnose/known_causes.h"
 #include "scene/draw_index.h"
 

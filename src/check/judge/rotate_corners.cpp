@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "check/compare/matched_by_primitive.h"
+#include "check/bounds/matched_by_primitive.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
 

@@ -9,11 +9,12 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
-#include "check/compare/cut_at_sides.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
 #include "check/judge/unit_normals.h"
+#include "check/polygons/compare_polygons.h"
+#include "check/polygons/cut_at_sides.h"
 #include "scene/antialias.h"
 
 namespace plumbline::check {
@@ -42,9 +43,9 @@ double copied_colors(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
 // Compares clip polygons; a foreign candidate's are first cut at the sides of the view volume, which such a candidate
 // may leave to the rasterizer.
 Measurement compare_clipped(const SceneJudgement& c, const Records<double>& mine, const Records<double>& theirs,
-                            double factor, bool flat_applies) {
-  if (!c.foreign) return compare_polygons(c.scene, mine, theirs, factor, flat_applies);
-  return compare_polygons(c.scene, cut_at_sides(mine), theirs, factor, flat_applies, kCopiedVertices);
+                            double factor, FlatColors of_flat) {
+  if (!c.foreign) return compare_polygons(c.scene, mine, theirs, factor, of_flat);
+  return compare_polygons(c.scene, cut_at_sides(mine), theirs, factor, of_flat, kCopiedVertices);
 }
 
 // Compares a varying in the stage's comparator, in place of the colour.
@@ -57,7 +58,8 @@ Measurement compare_varying(const SceneJudgement& c, Stage stage, Varying v, con
   if (v == Varying::secondary) a.varyings[Varying::back_color] = mine.varyings[Varying::back_secondary];
   const double factor = tolerance(Profile::exact, stage).factor;
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
-  if (stage == Stage::clip) return compare_clipped(c, a, b, factor, is_lit(v));
+  if (stage == Stage::clip)
+    return compare_clipped(c, a, b, factor, is_lit(v) ? FlatColors::provoking : FlatColors::own);
   if (stage == Stage::window)
     return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c), facing_area(c));
   if (c.foreign && v == Varying::normal) stretch_unit_normals(a.attributes, b.attributes);
@@ -180,7 +182,8 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
     case Stage::vertex:
       return add([&](double f) { return compare_vertices(c.scene, vertex_records(c, changed), theirs, f, f); });
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
-    case Stage::clip: return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, true)); });
+    case Stage::clip:
+      return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, FlatColors::provoking)); });
     case Stage::window:
       return add([&](double f) {
         return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c), facing_area(c)));

@@ -7,11 +7,12 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
-#include "check/compare/cut_at_sides.h"
 #include "check/compare/legal_window.h"
 #include "check/judge/rows.h"
 #include "check/judge/stage_inputs.h"
 #include "check/judge/unit_normals.h"
+#include "check/polygons/compare_polygons.h"
+#include "check/polygons/cut_at_sides.h"
 
 namespace plumbline::check {
 

@@ -1,5 +1,5 @@
 // Vertices of the mesh in a renderer that keeps clip positions in another form, such as depths of [0,w].
-#include "tests/check/compare/polygons.h"
+#include "tests/check/polygons/polygons.h"
 
 namespace plumbline::check {
 namespace {
@@ -8,7 +8,7 @@ struct PolygonCopies : Polygons {
   Measurement compare(const Change& candidate, double copies) const {
     Records<double> a = records;
     candidate(a);
-    return compare_polygons(scene, a, records, 8, true, copies);
+    return compare_polygons(scene, a, records, 8, FlatColors::provoking, copies);
   }
 };
 

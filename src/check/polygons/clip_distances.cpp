@@ -1,4 +1,4 @@
-#include "check/compare/clip_distances.h"
+#include "check/polygons/clip_distances.h"
 
 #include <algorithm>
 #include <array>

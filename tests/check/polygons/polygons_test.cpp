@@ -1,5 +1,5 @@
 // The comparator of stage 3: polygons as polygons.
-#include "tests/check/compare/polygons.h"
+#include "tests/check/polygons/polygons.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Clip polygons of renderers that leave the sides of the view volume to the raster.
 #pragma once
 
-#include "check/compare/compare_records.h"
+#include "capture/capture.h"
 
 namespace plumbline::check {
 

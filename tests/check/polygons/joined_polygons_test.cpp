@@ -1,21 +1,21 @@
 // Clippers that leave several polygons of a primitive: judged as the polygon that they make together.
 #include <array>
 
-#include "check/compare/join_polygons.h"
-#include "tests/check/compare/polygons.h"
+#include "check/polygons/join_polygons.h"
+#include "tests/check/polygons/polygons.h"
 
 namespace plumbline::check {
 namespace {
 
-using Numbers = std::vector<std::uint32_t>;
+using VertexNumbers = std::vector<std::uint32_t>;
 
 // Replaces a primitive's polygon by several, of its vertices with these numbers.
-Change parts(std::size_t primitive, const std::vector<Numbers>& of) {
+Change parts(std::size_t primitive, const std::vector<VertexNumbers>& of) {
   return [=](Records<double>& r) {
     auto& [vertices, polygons] = r.polygons;
     const ClipPolygon whole = polygons[primitive];
     std::vector<ClipPolygon> made;
-    for (const Numbers& part : of) {
+    for (const VertexNumbers& part : of) {
       made.push_back(
           {whole.primitive, static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(part.size())});
       for (const std::uint32_t i : part) vertices.push_back(ClipVertex<double>(vertices[whole.first + i]));
@@ -25,8 +25,8 @@ Change parts(std::size_t primitive, const std::vector<Numbers>& of) {
   };
 }
 
-const std::vector<Numbers> kFan = {{0, 1, 2}, {0, 2, 3}}, kOther = {{1, 2, 3}, {3, 0, 1}},
-                           kStrip = {{2, 0, 1}, {3, 0, 2}};
+const std::vector<VertexNumbers> kFan = {{0, 1, 2}, {0, 2, 3}}, kOther = {{1, 2, 3}, {3, 0, 1}},
+                                 kStrip = {{2, 0, 1}, {3, 0, 2}};
 
 ClipVertex<double> between(const ClipVertex<double>& a, const ClipVertex<double>& b, double share) {
   return {glm::mix(a.p_clip, b.p_clip, share), glm::mix(a.color, b.color, share), true};
@@ -61,10 +61,10 @@ TEST_F(JoinedPolygons, ALostOneFails) {
 }
 
 TEST_F(JoinedPolygons, OnesThatOverlapOrTurnOverFail) {
-  for (const auto& split : std::vector<std::vector<Numbers>>{{{0, 1, 2, 3}, {0, 1, 2}},
-                                                             {{0, 1, 2}, {0, 1, 2}, {0, 2, 3}},
-                                                             {{0, 1, 2}, {0, 3, 2}},
-                                                             {{0, 2, 1}, {0, 3, 2}}}) {
+  for (const auto& split : std::vector<std::vector<VertexNumbers>>{{{0, 1, 2, 3}, {0, 1, 2}},
+                                                                   {{0, 1, 2}, {0, 1, 2}, {0, 2, 3}},
+                                                                   {{0, 1, 2}, {0, 3, 2}},
+                                                                   {{0, 2, 1}, {0, 3, 2}}}) {
     const Measurement m = compare(parts(1, split));
     EXPECT_TRUE(fails(m));
     EXPECT_EQ(m.worst.place.record, 1);
@@ -85,7 +85,7 @@ TEST_F(JoinedPolygons, OnesThatDoNotMeetFail) {
 
 TEST_F(JoinedPolygons, CopiesOfACutVertexMayBeRoundedApart) {
   const std::uint32_t cut = cuts(1)[0];
-  const Numbers a = {cut, (cut + 1) % 4, (cut + 2) % 4}, b = {cut, (cut + 2) % 4, (cut + 3) % 4};
+  const VertexNumbers a = {cut, (cut + 1) % 4, (cut + 2) % 4}, b = {cut, (cut + 2) % 4, (cut + 3) % 4};
   const std::size_t copy = records.polygons.vertices.size() + 3;
   ASSERT_TRUE(passes(with(parts(1, {a, b}), [&](auto& v) { v[copy].p_clip.x += 2 * kU; })));
   EXPECT_TRUE(fails(with(parts(1, {a, b}), [&](auto& v) { v[copy].p_clip.x += 256 * kU; })));
@@ -96,7 +96,7 @@ TEST_F(JoinedPolygons, CopiesOfACutVertexMayBeRoundedApart) {
 TEST_F(JoinedPolygons, AVertexOnTheEdgeThatACutMadeIsNoCorner) {
   const auto i = cuts(1)[0], j = cuts(1)[1];
   ASSERT_EQ((i + 1) % 4, j);
-  const Numbers a = {i, (j + 1) % 4, (j + 2) % 4}, b = {i, j, (j + 1) % 4};
+  const VertexNumbers a = {i, (j + 1) % 4, (j + 2) % 4}, b = {i, j, (j + 1) % 4};
   const std::size_t first = records.polygons.vertices.size();
   const auto split = [&](double share, const std::function<void(ClipVertex<double>&)>& change) {
     return compare([&](Records<double>& r) {
@@ -160,7 +160,7 @@ TEST_F(JoinedPolygons, PartsOfAPolygonWithoutAreaReachItsCorners) {
 // where the near plane cuts the first edge to the last corner, which is 40 u in front of that plane.
 TEST_F(JoinedPolygons, PartsMayShareAPieceOfAnEdge) {
   set({{{0, 0, 0, 1}, {0.5, 0.25, -2, 1}, {-0.5, 0.5, -1 + 40 * kU, 1}}});
-  ASSERT_EQ(cuts(0), Numbers({1, 2}));
+  ASSERT_EQ(cuts(0), VertexNumbers({1, 2}));
   const std::size_t first = records.polygons.vertices.size();
   const auto with_end = [&](double along, double away) {
     return with(parts(0, {{0, 1, 3}, {1, 2, 3}}),

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "check/compare/legal_polygon.h"
+#include "check/polygons/legal_polygon.h"
 
 namespace plumbline::check {
 

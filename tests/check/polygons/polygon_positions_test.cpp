@@ -1,5 +1,5 @@
 // The comparator of polygon positions that a reference rebuilt from the window.
-#include "tests/check/compare/polygons.h"
+#include "tests/check/polygons/polygons.h"
 
 namespace plumbline::check {
 namespace {

@@ -1,10 +1,10 @@
-#include "check/compare/join_polygons.h"
+#include "check/polygons/join_polygons.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-#include "check/compare/clip_distances.h"
+#include "check/polygons/clip_distances.h"
 
 namespace plumbline::check {
 

@@ -1,4 +1,4 @@
-#include "check/compare/legal_polygon.h"
+#include "check/polygons/legal_polygon.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "check/compare/compare_records.h"
+#include "check/polygons/compare_polygons.h"
 #include "tests/check/fixtures.h"
 
 namespace plumbline::check {

@@ -1,7 +1,7 @@
 // Polygons of renderers that leave the sides of the view volume to the raster.
-#include "check/compare/cut_at_sides.h"
+#include "check/polygons/cut_at_sides.h"
 
-#include "tests/check/compare/polygons.h"
+#include "tests/check/polygons/polygons.h"
 
 namespace plumbline::check {
 namespace {
@@ -10,7 +10,7 @@ struct CutAtSides : Polygons {
   // A renderer's polygons, as they are and cut at the sides.
   Measurement as_it_is(const Records<double>& a) const { return compare_polygons(scene, a, records, kFactor); }
   Measurement cut(const Records<double>& a) const {
-    return compare_polygons(scene, cut_at_sides(a), records, kFactor, true, 4);
+    return compare_polygons(scene, cut_at_sides(a), records, kFactor, FlatColors::provoking, 4);
   }
   // The records with the primitive's polygon replaced by its corners, after `change`.
   Records<double> uncut(

@@ -1,11 +1,11 @@
-#include "check/compare/cut_at_sides.h"
+#include "check/polygons/cut_at_sides.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "check/compare/legal_polygon.h"
+#include "check/polygons/legal_polygon.h"
 
 namespace plumbline::check {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "check/compare/legal_polygon.h"
+#include "check/polygons/legal_polygon.h"
 
 namespace plumbline::check {
 

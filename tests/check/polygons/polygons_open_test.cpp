@@ -1,5 +1,5 @@
 // Polygons whose cuts rounding decides about: the corners say what is open, never the polygon that is judged.
-#include "tests/check/compare/polygons.h"
+#include "tests/check/polygons/polygons.h"
 
 namespace plumbline::check {
 namespace {

@@ -1,0 +1,26 @@
+// Comparators of stage 3: clip polygons of two captures.
+#pragma once
+
+#include "capture/capture.h"
+#include "check/verdict/measure.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+/// Colours of the vertices of flat draws: all the provoking vertex', or each vertex' own.
+enum class FlatColors { provoking, own };
+
+/// Compares clip polygons, primitive by primitive. Both sides must have the same number of vertices; a vertex of the
+/// mesh must be in the same place; a cut vertex must lie on the clip planes of its counterpart and in the plane of its
+/// triangle, colour included. Where a corner lies within `factor` u of a clip plane, the number of vertices is
+/// ambiguous. `copies`: error of a vertex of the mesh [u of its triangle's largest coordinate, or channel], for a
+/// renderer that keeps clip positions in another form; a cut vertex within `copies` + `factor` u of a corner then counts
+/// as the corner.
+Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                             double factor, FlatColors of_flat = FlatColors::provoking, double copies = 0);
+/// Compares positions of clip polygons. Tolerance: `factor` u of |p_clip| + |w|, per coordinate; for references that
+/// rebuild p_clip from window positions.
+Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
+                                      double factor);
+
+}  // namespace plumbline::check
