@@ -120,12 +120,65 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
   });
 }
 
+namespace {
+
+// Fragments drawn at a pixel, one over the other.
+struct Layers {
+  int count = 0;
+  double bound = 0;                     // sum of the errors of the fragments' colours
+  bool combined = false;                // by a logic op
+  bool certain = true;                  // both sides have the codes that logic ops combine
+  glm::bvec4 holds_clear_color{true};   // the clear colour is there still
+  glm::bvec4 reads_clear_color{false};  // a logic op has combined it
+};
+
+// Gathers the layers of each pixel; a fragment's fault of the reference makes later values suspect.
+class LayersOfPixels {
+ public:
+  LayersOfPixels(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
+      : records_(candidate.records),
+        bounds_(scene, candidate, reference, factor),
+        drawn_(FragmentsByPixel::drawn(scene.frame, candidate.records)),
+        scale_(color_scale(scene.frame.color)) {}
+
+  Layers at(int x, int y, Meter& meter) const {
+    Layers out;
+    drawn_.each(x, y, [&](std::size_t i) { add(i, meter, out); });
+    out.combined = out.combined && scale_ > 0;
+    return out;
+  }
+
+ private:
+  void add(std::size_t i, Meter& meter, Layers& out) const {
+    const FragmentBound of = bounds_.of_fragment(i);
+    ++out.count;
+    if (!of.reason.empty()) meter.suspect(of.reason);
+    const Vec4<double> sum = of.color + glm::abs(of.line_shift) + of.apart;
+    out.bound += std::max({sum.r, sum.g, sum.b, sum.a});
+    const Records<double>& r = records_;
+    const Merge& merge = bounds_.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
+    out.combined = out.combined || merge.logic_op;
+    for (int c = 0; c < 4; ++c) {
+      if (merge.logic_op) out.reads_clear_color[c] = out.reads_clear_color[c] || out.holds_clear_color[c];
+      if (!merge.logic_op && !merge.blend && merge.color_mask[c]) out.holds_clear_color[c] = false;
+    }
+    out.certain = out.certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
+                  codes_of(r.shaded[i].color - sum, scale_) == codes_of(r.shaded[i].color + sum, scale_);
+  }
+
+  const Records<double>& records_;
+  FragmentBounds bounds_;
+  FragmentsByPixel drawn_;
+  double scale_;
+};
+
+}  // namespace
+
 Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
                             double codes, double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   const double scale = color_scale(scene.frame.color);
-  const FragmentBounds bounds(scene, candidate, reference, factor);
-  const FragmentsByPixel drawn = FragmentsByPixel::drawn(scene.frame, candidate.records);
+  const LayersOfPixels layers_of(scene, candidate, reference, factor);
   const Plane<std::uint8_t> tied = legal.empty() ? open_by_depth(scene, candidate) : Plane<std::uint8_t>();
   const OthersCover others_cover(a, b);
   const std::string unit = code_unit(scene.frame);
@@ -134,45 +187,24 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     const Place place{x, y, id, "color", true};
     const bool open = others_cover(x, y) || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
                       (!tied.empty() && tied(x, y) != 0);
-    int fragments = 0;
-    double bound = 0;
-    bool combined = false, certain = true;      // by a logic op, of codes that both sides have
-    glm::bvec4 cleared(true), on_clear(false);  // the clear colour is there still; a logic op has read it
-    drawn.each(x, y, [&](std::size_t i) {
-      const FragmentBound of = bounds.of_fragment(i);
-      ++fragments;
-      if (!of.reason.empty()) meter.suspect(of.reason);
-      const Vec4<double> sum = of.color + glm::abs(of.line_shift) + of.apart;
-      bound += std::max({sum.r, sum.g, sum.b, sum.a});
-      const Records<double>& r = candidate.records;
-      const Merge& merge = bounds.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
-      combined = combined || merge.logic_op;
-      for (int c = 0; c < 4; ++c) {
-        if (merge.logic_op) on_clear[c] = on_clear[c] || cleared[c];
-        if (!merge.logic_op && !merge.blend && merge.color_mask[c]) cleared[c] = false;
-      }
-      certain = certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
-                codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);
-    });
+    const Layers drawn = layers_of.at(x, y, meter);
     // Error of a fragment enters three times: as source colour, in the source's factor, and in the factor of the
     // frame's colour, which is at most `held` (1; in float the number of fragments).
-    const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
-    bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
-    combined = combined && scale > 0;
+    const double layers = reads ? std::exp2(drawn.count) - 1 : drawn.count,
+                 held = scale > 0 ? 1 : std::max(1, drawn.count),
+                 bound = drawn.bound * (2 + held) * (reads ? std::exp2(drawn.count - 1) : 1);
     for (int c = 0; c < 4; ++c) {
-      const double v = a.color(x, y)[c], w = b.color(x, y)[c];
-      const bool unknown = !certain || (on_clear[c] && cleared_codes(scene.frame, c) > 0);
-      const double allowed = codes * layers + cleared_codes(scene.frame, c);
-      const bool any_code = scale > 0 && allowed >= scale;  // so many layers that no code is wrong
-      if (open || !std::isfinite(bound) || (combined && unknown) || (!combined && any_code)) {
+      const double v = a.color(x, y)[c], w = b.color(x, y)[c], clear = cleared_codes(scene.frame, c);
+      const double allowed = codes * layers + clear;
+      // Of codes that a logic op combines: operands that are not certain; of others: so many layers that none is wrong.
+      const bool any_code =
+          drawn.combined ? !drawn.certain || (drawn.reads_clear_color[c] && clear > 0) : scale > 0 && allowed >= scale;
+      if (open || !std::isfinite(bound) || any_code) {
         add_open_value(meter, v, place, w);
       } else if (scale > 0) {
         const double code = std::round(scale * v), code_ref = std::round(scale * w);
-        if (combined) {
-          meter.value(difference(code, code_ref), 0, place, code, code_ref);
-        } else {
-          meter.value(difference(code, code_ref), allowed, place, code, code_ref, std::floor(scale * bound));
-        }
+        meter.value(difference(code, code_ref), drawn.combined ? 0 : allowed, place, code, code_ref,
+                    drawn.combined ? 0 : std::floor(scale * bound));
       } else {
         meter.value(difference(v, w) / u, bound / u + 4 * layers * held, place, v, w);
       }

@@ -134,59 +134,85 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   return meter.done();
 }
 
+namespace {
+
+// The winner's texel at a pixel: legal ones, and the share of such pixels whose texel rounding leaves open.
+struct WinnersTexel {
+  TexelBound bound;
+  OpenShare share;
+  std::string_view reason;  // the reference's fault; empty: none
+};
+
+class WinnersTexels {
+ public:
+  WinnersTexels(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
+      : scene_(scene),
+        candidate_(candidate),
+        bounds_(scene, candidate, reference, factor),
+        drawn_(FragmentsByPixel::drawn(scene.frame, candidate.records)) {}
+
+  WinnersTexel at(int x, int y) const {
+    WinnersTexel out{};
+    out.bound.range.lo = out.bound.range.hi = Vec4<double>(candidate_.planes.texel(x, y));
+    std::optional<std::size_t> last;
+    drawn_.each(x, y, [&](std::size_t i) { last = i; });
+    if (!last) return out;
+    const Records<double>& r = candidate_.records;
+    const Draw& draw = bounds_.draw_of(r.triangles[r.covered[*last].triangle].primitive);
+    if (!draw.texture) return out;
+    out.bound = bounds_.texel(*last);
+    out.share = bounds_.open_texels(*last);
+    out.reason = mesas_other_level(scene_.textures.at(draw.texture->texture), out.bound.range);
+    return out;
+  }
+
+ private:
+  const Scene& scene_;
+  const Capture& candidate_;
+  FragmentBounds bounds_;
+  FragmentsByPixel drawn_;
+};
+
+bool is_beyond(const Vec4<double>& texel, const TexelBound& bound) {
+  return glm::any(glm::lessThan(texel, bound.range.lo - bound.slack)) ||
+         glm::any(glm::greaterThan(texel, bound.range.hi + bound.slack));
+}
+
+}  // namespace
+
 Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor,
                                  std::string& note) {
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
   if (!same_size(a.id, b.id, why) || !same_size(a.id, a.texel, why)) return mismatch("u", why, a.id.size());
-  const FragmentBounds bounds(scene, candidate, reference, factor);
-  const FragmentsByPixel drawn = FragmentsByPixel::drawn(scene.frame, candidate.records);
+  const WinnersTexels texels(scene, candidate, reference, factor);
   double area = 0, centres = 0;
   std::uint64_t open = 0;
   Measurement m = compare_planes(a.texel, b.texel, "u", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
-    if (id == kBackground) {
-      for (const glm::vec4& texel : {a.texel(x, y), b.texel(x, y)}) {
-        for (int c = 0; c < 4; ++c) add_finite_value(meter, texel[c], {x, y, id, "texel", true});
-      }
-      return;
-    }
-    std::optional<std::size_t> last;
-    drawn.each(x, y, [&](std::size_t i) { last = i; });
-    std::string_view reason;
-    TexelBound bound;
-    bound.range.lo = bound.range.hi = Vec4<double>(a.texel(x, y));
-    if (last) {
-      const auto& triangle = candidate.records.triangles[candidate.records.covered[*last].triangle];
-      const Draw& draw = bounds.draw_of(triangle.primitive);
-      if (draw.texture) {
-        bound = bounds.texel(*last);
-        const OpenShare share = bounds.open_texels(*last);
-        area += share.area;
-        centres += share.centre ? 1 : 0;
-        reason = mesas_other_level(scene.textures.at(draw.texture->texture), bound.range);
-      }
-    }
+    const Vec4<double> mine(a.texel(x, y)), theirs(b.texel(x, y));
     const Place place{x, y, id, "texel", true};
-    if (!std::isfinite(bound.slack.r)) {
-      ++open;
-      meter.ambiguous();
-      for (int c = 0; c < 4; ++c) {
-        const double v = a.texel(x, y)[c], w = b.texel(x, y)[c];
-        meter.value(std::isfinite(v) && std::isfinite(w) ? 0 : kInfinite, 0, place, v, w);
+    if (id == kBackground) {
+      for (const Vec4<double>& texel : {mine, theirs}) {
+        for (int c = 0; c < 4; ++c) add_finite_value(meter, texel[c], place);
       }
       return;
     }
-    const auto beyond = [&](const glm::vec4& texel) {
-      return glm::any(glm::lessThan(Vec4<double>(texel), bound.range.lo - bound.slack)) ||
-             glm::any(glm::greaterThan(Vec4<double>(texel), bound.range.hi + bound.slack));
-    };
-    if (!beyond(a.texel(x, y))) meter.suspect(reason);
+    const auto [bound, share, reason] = texels.at(x, y);
+    area += share.area;
+    centres += share.centre ? 1 : 0;
+    const bool is_open = !std::isfinite(bound.slack.r);
+    open += is_open ? 1 : 0;
+    if (!is_open && !is_beyond(mine, bound)) meter.suspect(reason);
     for (int c = 0; c < 4; ++c) {
-      const double v = a.texel(x, y)[c], w = b.texel(x, y)[c], lo = bound.range.lo[c], hi = bound.range.hi[c];
-      meter.value(std::max(distance_outside(v, lo, hi), distance_outside(w, lo, hi)) / u, bound.slack[c] / u, place, v,
-                  w);
+      const double v = mine[c], w = theirs[c], lo = bound.range.lo[c], hi = bound.range.hi[c];
+      if (is_open) {
+        add_open_value(meter, v, place, w);
+      } else {
+        meter.value(std::max(distance_outside(v, lo, hi), distance_outside(w, lo, hi)) / u, bound.slack[c] / u, place,
+                    v, w);
+      }
     }
   });
   if (open == 0) return m;

@@ -86,6 +86,54 @@ const Legal* first_legal(const ReferenceCaptures& answers) {
   return first != answers.captures.end() ? &first->legal : nullptr;
 }
 
+// What a drawn scene is judged by, beside the references' captures.
+struct Beside {
+  RendererInfo shown;            ///< of the candidate, for this scene
+  Capture mine;                  ///< the candidate's
+  Renderer* referee = nullptr;   ///< makes single stages; null: none
+  Legal where_apart;             ///< legal answers at some pixels, where no reference gave those of the frame
+  const Legal* legal = nullptr;  ///< never null once prepared
+  MadeStages made;               ///< stages that the referee has made of `mine`
+};
+
+// Brings a foreign candidate's records into the form that comparators read, and adds what the referee makes of them.
+void prepare(const Scene& scene, const Scene& seen, const ReferenceCaptures& theirs, Beside& b) {
+  Renderer& referee = *b.referee;
+  const Conventions& conventions = b.shown.conventions;
+  if (b.shown.profile == Profile::foreign) {
+    // Fragments are lit by interpolated normals, whose lengths count.
+    b.mine.records = with_unit_normals(scene, std::move(b.mine.records), OfDraws::lit_at_vertices);
+    rotate_as_made(seen, b.shown, referee, b.mine);
+  }
+  if (b.legal == nullptr && referee.info().legal)
+    b.where_apart = legal_where_apart(scene, b.mine, theirs.captures, referee, conventions);
+  b.made = make_stages(seen, b.mine, referee, conventions);
+  // Comparators read the legal texels of the candidate's fragments beside its records.
+  if (const auto filtered = b.made.find(Stage::texture); filtered != b.made.end())
+    b.mine.legal.texels = filtered->second.legal.texels;
+}
+
+// Appends the rows of one reference.
+void add_rows(const Scene& seen, Renderer& reference, const Capture& theirs, Beside& b, SceneVerdict& verdict) {
+  const RendererInfo info = reference.info();
+  const SceneJudgement c{.scene = seen,
+                         .candidate = b.mine,
+                         .legal = *b.legal,
+                         .referee = b.referee,
+                         .rows = verdict.comparisons,
+                         .profile = info.profile,
+                         .foreign = b.shown.profile == Profile::foreign,
+                         .conventions = b.shown.conventions};
+  {
+    const DrawnAsMade drawn_as_made(b.mine, b.made);
+    judge_from_scene(c, theirs, info, b.shown);
+  }
+  if (!is_referee(info)) return;
+  const MadeStages none;
+  std::ranges::move(judge_records(seen, b.mine, reference, &b.shown, &reference == b.referee ? b.made : none, *b.legal),
+                    std::back_inserter(verdict.comparisons));
+}
+
 }  // namespace
 
 SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
@@ -95,78 +143,47 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
   const auto nothing = [&](const std::string& name, const Refusal& refusal) {
     verdict.comparisons.push_back(not_judged(scene.name, name, Stage::merge, refusal.outcome, refusal.why));
   };
-  Capture mine;  // no reference draws a scene too large to judge
+  Beside b;  // no reference draws a scene too large to judge
   const std::optional<Refusal> refusal =
-      refusal_within_budget([&] { mine = capture_all(scene, candidate, most_fragments); });
-  RendererInfo shown = candidate.info();  // of a program: what it left of this scene
-  const Conventions conventions = shown.conventions;
-  const bool foreign = shown.profile == Profile::foreign, drew = !refusal;
+      refusal_within_budget([&] { b.mine = capture_all(scene, candidate, most_fragments); });
+  b.shown = candidate.info();  // of a program: what it left of this scene
+  const bool foreign = b.shown.profile == Profile::foreign, drew = !refusal;
   if (!drew && (foreign || refusal->outcome == Outcome::unsupported)) {  // a foreign one runs no single stages
-    nothing(shown.name, *refusal);
+    nothing(b.shown.name, *refusal);
     return verdict;
   }
-  const SceneByConventions seen(scene, conventions);
-  ReferenceCaptures answers =
-      capture_references(scene, references, !drew || !more_than(most_fragments, mine), conventions);
-  Renderer* const referee = answering_referee(references, answers);
-  const Legal* legal = first_legal(answers);
-  Legal where_apart;
-  MadeStages made;
+  const SceneByConventions seen(scene, b.shown.conventions);
+  const bool wants_legal = !drew || !more_than(most_fragments, b.mine);
+  ReferenceCaptures theirs = capture_references(scene, references, wants_legal, b.shown.conventions);
+  b.referee = answering_referee(references, theirs);
+  b.legal = first_legal(theirs);
   if (!drew) {
-    verdict.comparisons.push_back(candidate_failed(scene, candidate, referee, refusal->why, shown));
-    mine = run_alone(scene, candidate, shown);
-  } else if (referee != nullptr) {
-    if (foreign) {
-      // Fragments are lit by interpolated normals, whose lengths count.
-      mine.records = with_unit_normals(scene, std::move(mine.records), OfDraws::lit_at_vertices);
-      rotate_as_made(*seen, shown, *referee, mine);
-    }
-    if (legal == nullptr && referee->info().legal)
-      where_apart = legal_where_apart(scene, mine, answers.captures, *referee, conventions);
-    made = make_stages(*seen, mine, *referee, conventions);
-    // Comparators read the legal texels of the candidate's fragments beside its records.
-    if (const auto filtered = made.find(Stage::texture); filtered != made.end())
-      mine.legal.texels = filtered->second.legal.texels;
+    verdict.comparisons.push_back(candidate_failed(scene, candidate, b.referee, refusal->why, b.shown));
+    b.mine = run_alone(scene, candidate, b.shown);
+  } else if (b.referee != nullptr) {
+    prepare(scene, *seen, theirs, b);
   }
-  if (legal == nullptr) legal = &where_apart;
-  verdict.empty_holds = may_be_empty(*legal);
+  if (b.legal == nullptr) b.legal = &b.where_apart;
+  verdict.empty_holds = may_be_empty(*b.legal);
   for (std::size_t i = 0; i < references.size(); ++i) {
-    if (answers.refusals[i]) {
-      nothing(references[i].name, *answers.refusals[i]);
+    if (theirs.refusals[i]) {
+      nothing(references[i].name, *theirs.refusals[i]);
       continue;
     }
-    Renderer& reference = *references[i].renderer;
     try {
-      const RendererInfo info = reference.info();
-      const SceneJudgement c{.scene = *seen,
-                             .candidate = mine,
-                             .legal = *legal,
-                             .referee = referee,
-                             .rows = verdict.comparisons,
-                             .profile = info.profile,
-                             .foreign = foreign,
-                             .conventions = conventions};
-      {
-        const DrawnAsMade drawn_as_made(mine, made);
-        judge_from_scene(c, answers.captures[i], info, shown);
-      }
-      if (is_referee(info)) {
-        const MadeStages none;
-        std::ranges::move(judge_records(*seen, mine, reference, &shown, &reference == referee ? made : none, *legal),
-                          std::back_inserter(verdict.comparisons));
-      }
+      add_rows(*seen, *references[i].renderer, theirs.captures[i], b, verdict);
     } catch (const std::exception& e) {
       nothing(references[i].name, {Outcome::failed, e.what()});
     }
   }
   if (foreign) leave_recipes_to_exact(verdict.comparisons);
   settle_votes(verdict.comparisons, is_plain(*seen));
-  if (drew && !shown.painters.empty() && shown[Stage::merge].shows)
-    verdict.comparisons.push_back(judge_picture(scene, candidate, mine));
+  if (drew && !b.shown.painters.empty() && b.shown[Stage::merge].shows)
+    verdict.comparisons.push_back(judge_picture(scene, candidate, b.mine));
   verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (drawn != nullptr) {
-    if (drew) drawn->candidate = std::move(mine);
-    drawn->references = std::move(answers.captures);
+    if (drew) drawn->candidate = std::move(b.mine);
+    drawn->references = std::move(theirs.captures);
   }
   return verdict;
 }

@@ -151,6 +151,34 @@ std::uint64_t depths_that_differ(const SceneJudgement& c, const Capture& made) {
   return depths_by_exact(c, made, tolerance(Profile::exact, Stage::depth).factor).differing;
 }
 
+void compare_coverage_stage(const SceneJudgement& c, const Capture& made, const JudgeId& name) {
+  const Records<double>&mine = c.candidate.records, &theirs = made.records;
+  const Stage stage = Stage::coverage;
+  const bool are_counted = are_sums_of(mine, c.candidate.planes);
+  if (c.foreign && are_counted && knows_ties(c.scene, c.conventions))
+    return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions));
+  if (covers_otherwise(c) && are_counted) {
+    const glm::dvec2 sample = 0.5 + glm::dvec2(sample_place(c.scene.frame)) / double{kSubpixel};
+    return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample));
+  }
+  Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
+  if (lacks_fragment_records(c.candidate))
+    return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
+  c.add(name, stage, worse(std::move(planes), compare_open_covered(c.candidate, theirs, c.open_coverage())));
+}
+
+void compare_merge_stage(const SceneJudgement& c, const Capture& made, const JudgeId& name) {
+  const Planes expected = with_either_clear_depth(c, made.planes);
+  const bool is_float = c.scene.frame.color == ColorFormat::rgba32f;
+  const bool blends = c.foreign && is_float && !colors_replace(c.scene);
+  const Plane<double> roundings = blends ? blending_roundings(c.scene, c.candidate.records) : Plane<double>();
+  const Tolerance* row = is_float ? nullptr : &tolerance(Profile::exact, Stage::merge, "codes");
+  Measurement m = compare_merge(c.scene, c.candidate.planes, expected, row != nullptr ? row->factor : 1, made.legal,
+                                c.conventions, roundings);
+  const std::string note = c.candidate.planes.depth.empty() ? "its colour alone: it shows no planes.depth" : "";
+  c.add(name, Stage::merge, std::move(m), row, note);
+}
+
 }  // namespace
 
 // Where depth_corners is `either`, depths are made from the corners as they are and from the snapped corners, and the
@@ -188,19 +216,7 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
       return add([&](double f) {
         return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c), facing_area(c)));
       });
-    case Stage::coverage: {
-      const bool are_counted = are_sums_of(c.candidate.records, c.candidate.planes);
-      if (c.foreign && are_counted && knows_ties(c.scene, c.conventions))
-        return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions));
-      if (covers_otherwise(c) && are_counted) {
-        const glm::dvec2 sample = 0.5 + glm::dvec2(sample_place(c.scene.frame)) / double{kSubpixel};
-        return c.add(name, stage, compare_covered_except_edges(c.candidate.records, theirs, c.conventions, sample));
-      }
-      Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
-      if (lacks_fragment_records(c.candidate))
-        return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
-      return c.add(name, stage, worse(std::move(planes), compare_open_covered(c.candidate, theirs, c.open_coverage())));
-    }
+    case Stage::coverage: return compare_coverage_stage(c, made, name);
     case Stage::depth: return add([&](double f) { return depths_by_exact(c, made, f); });
     case Stage::attributes:
       return add([&](double f) {
@@ -214,19 +230,7 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
       if (is_plain(c.scene)) return c.add(name, stage, compare_shaded(c.scene, mine, theirs, 0, copied_colors(c)));
       return add([&](double f) { return compare_shaded(c.scene, mine, theirs, f, copied_colors(c)); });
     case Stage::visibility: return compare_visible(c, made, name);
-    case Stage::merge: {
-      const Planes expected = with_either_clear_depth(c, made.planes);
-      const bool is_float = c.scene.frame.color == ColorFormat::rgba32f;
-      const bool blends = c.foreign && is_float && !colors_replace(c.scene);
-      const Plane<double> roundings = blends ? blending_roundings(c.scene, mine) : Plane<double>();
-      const auto compare = [&](double f) {
-        return compare_merge(c.scene, c.candidate.planes, expected, f, made.legal, c.conventions, roundings);
-      };
-      const std::string note = c.candidate.planes.depth.empty() ? "its colour alone: it shows no planes.depth" : "";
-      if (is_float) return c.add(name, stage, compare(1), nullptr, note);
-      const Tolerance& row = tolerance(Profile::exact, stage, "codes");
-      return c.add(name, stage, compare(row.factor), &row, note);
-    }
+    case Stage::merge: return compare_merge_stage(c, made, name);
     case Stage::resolve: break;  // of passes together (judge_passes.h)
   }
 }
