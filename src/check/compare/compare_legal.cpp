@@ -60,53 +60,63 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
               {x, y, -1, "cleared z"}, z, cleared.z_lo);
 }
 
-// `half_code`: added to the oracle's bound for rounding to the frame's format. `at_pixel(meter, x, y)`: more values;
-// true: the pixel's colour is not compared. `holds(answer, x, y)`: whether the pixel's other planes fit the answer; if
-// any answer fits, only fitting ones count. `may_clamp`: colours may be clamped to [0, 1].
+// How a plane's colours are compared with an answer's.
+struct ColorRule {
+  StoredColors stored;
+  double factor = 1;       // of the answer's bound
+  double half_code = 0;    // added to the bound, for rounding to the frame's format
+  bool may_clamp = false;  // colours may be clamped to [0, 1]
+
+  double wanted(const LegalAnswer& a, int channel) const {
+    const double v = a.color[channel];
+    return stored.of_channel(stored.scale > 0 ? std::clamp(v, 0.0, 1.0) : v, channel);
+  }
+  double bound(const LegalAnswer& a, int channel) const {
+    const double v = a.color[channel], off = a.color_bound, middle = stored.of_channel(v, channel);
+    if (stored.of_channel(0.5, channel) == 0.5) return off;
+    return std::max(stored.of_channel(v + off, channel) - middle, middle - stored.of_channel(v - off, channel));
+  }
+  // Difference of a channel, in bounds.
+  double apart(double got, const LegalAnswer& a, int channel) const {
+    const double own = a.color[channel];
+    double diff = difference(stored.middle(got), wanted(a, channel));
+    if (may_clamp) diff = std::min(diff, difference(got, std::clamp(own, 0.0, 1.0)));
+    // The clear colour may be rounded, and encoded, otherwise than fragments are.
+    if (a.primitive == kBackground) diff = std::min(diff, difference(got, own));
+    return diff == 0 ? 0 : diff / (bound(a, channel) + half_code);
+  }
+  double farthest(const glm::vec4& color, const LegalAnswer& a) const {
+    return std::max({apart(color[0], a, 0), apart(color[1], a, 1), apart(color[2], a, 2), apart(color[3], a, 3)});
+  }
+};
+
+// `at_pixel(meter, x, y)`: adds more values; true: the pixel's colour is not compared. `holds(answer, x, y)`: whether
+// the pixel's other planes fit the answer; if any answer fits, only fitting ones count.
 template <class AtPixel, class Holds>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
-                                double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel,
-                                const Holds& holds, bool may_clamp) {
+                                const ColorRule& rule, const AtPixel& at_pixel, const Holds& holds) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
     if (at_pixel(meter, x, y)) return;
     if (legal.at(x, y).size() > 1) meter.ambiguous();
     const glm::vec4 c = color(x, y);
-    const auto wanted = [&](const LegalAnswer& a, int i) {
-      const double v = a.color[i];
-      return stored.of_channel(stored.scale > 0 ? std::clamp(v, 0.0, 1.0) : v, i);
-    };
-    const auto bound = [&](const LegalAnswer& a, int i) {
-      const double v = a.color[i], off = a.color_bound, middle = stored.of_channel(v, i);
-      if (stored.of_channel(0.5, i) == 0.5) return off;
-      return std::max(stored.of_channel(v + off, i) - middle, middle - stored.of_channel(v - off, i));
-    };
-    const auto apart = [&](const LegalAnswer& a, int i) {
-      double diff = difference(stored.middle(c[i]), wanted(a, i));
-      if (may_clamp) diff = std::min(diff, difference(c[i], std::clamp(static_cast<double>(a.color[i]), 0.0, 1.0)));
-      // The clear colour may be rounded, and encoded, otherwise than fragments are.
-      if (a.primitive == kBackground) diff = std::min(diff, difference(c[i], a.color[i]));
-      return diff == 0 ? 0 : diff / (bound(a, i) + half_code);
-    };
-    const auto farthest = [&](const LegalAnswer& a) {
-      return std::max({apart(a, 0), apart(a, 1), apart(a, 2), apart(a, 3)});
-    };
     const auto answers = answers_of_winner(legal, candidate, x, y);
     if (answers.empty()) {  // visibility judges the winner; here any finite colour holds
-      for (int i = 0; i < 4; ++i) {
-        meter.value(std::isfinite(c[i]) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "color"}, c[i], 0);
-      }
+      for (int i = 0; i < 4; ++i) add_finite_value(meter, c[i], {x, y, winner_at(candidate, x, y), "color"});
       return;
     }
     const bool one_holds = std::ranges::any_of(answers, [&](const LegalAnswer& a) { return holds(a, x, y); });
-    const auto distance = [&](const LegalAnswer& a) { return one_holds && !holds(a, x, y) ? kInfinite : farthest(a); };
+    const auto distance = [&](const LegalAnswer& a) {
+      return one_holds && !holds(a, x, y) ? kInfinite : rule.farthest(c, a);
+    };
     const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, distance);
     // Any colour is legal. (Those of codes are in [0, 1].)
-    const bool is_any = stored.scale > 0 ? !(nearest.color_bound < 1) : !std::isfinite(nearest.color_bound);
+    const bool is_any = rule.stored.scale > 0 ? !(nearest.color_bound < 1) : !std::isfinite(nearest.color_bound);
     if (is_any && legal.at(x, y).size() == 1) meter.ambiguous();
     for (int i = 0; i < 4; ++i) {
-      meter.value(apart(nearest, i), factor, {x, y, nearest.primitive, "color"}, c[i], wanted(nearest, i));
+      meter.value(rule.apart(c[i], nearest, i), rule.factor, {x, y, nearest.primitive, "color"}, c[i],
+                  rule.wanted(nearest, i));
     }
   });
 }
@@ -152,8 +162,9 @@ Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, co
     return true;
   };
   const auto holds = [](const LegalAnswer&, int, int) { return true; };
-  return compare_legal_color(candidate.shaded, candidate, legal, 0, {Conventions{}, 0}, factor, has_no_winner, holds,
-                             scene.frame.color != ColorFormat::rgba32f);
+  const Conventions none;
+  const ColorRule rule{.stored = {none, 0}, .factor = factor, .may_clamp = scene.frame.color != ColorFormat::rgba32f};
+  return compare_legal_color(candidate.shaded, candidate, legal, rule, has_no_winner, holds);
 }
 
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
@@ -193,8 +204,8 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
     const double z = candidate.depth(x, y);
     return distance_outside(z, a.z_lo, a.z_hi) / depth_step(scene.frame.depth, z) <= steps;
   };
-  return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, stored, factor,
-                             clear_depth, has_its_depth, false);
+  const ColorRule rule{.stored = stored, .factor = factor, .half_code = codes ? 0.5 / scale + 4 * u : 0};
+  return compare_legal_color(candidate.color, candidate, legal, rule, clear_depth, has_its_depth);
 }
 
 }  // namespace plumbline::check
