@@ -86,6 +86,7 @@ class ReplayedRenderer : public Renderer {
   ReplayedRenderer(Capture capture, const Scene& scene, const Conventions& conventions) : capture_(std::move(capture)) {
     const std::vector<std::string> of_winners = contradictions_of(capture_, Stage::visibility);
     if (!of_winners.empty()) capture_.planes.id = {};
+    if (scene.frame.stencil == StencilFormat::none) capture_.planes.stencil = {};  // of a buffer that no draw uses
     add_planes_of_records(capture_);
     info_.name = capture_.renderer;
     info_.version = capture_.version;

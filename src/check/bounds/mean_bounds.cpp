@@ -20,8 +20,7 @@ PlaneValue color_of_plane(const WindowTriangle<double>& t, int x, int y) {
   return {value, sum(b.d_dx, value), sum(b.d_dy, value)};
 }
 
-Vec4<double> slope_rounding(const WindowTriangle<double>& t, int x, int y) {
-  constexpr double kRounding = 0x1p-51, kPixels = 128;
+Vec4<double> slope_rounding(const WindowTriangle<double>& t, int x, int y, const SlopeArithmetic& arithmetic) {
   const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
   const PlaneValue plane = color_of_plane(t, x, y);
   const Vec4<double> size = glm::abs(plane.value), slope = glm::max(glm::abs(plane.d_dx), glm::abs(plane.d_dy));
@@ -29,16 +28,19 @@ Vec4<double> slope_rounding(const WindowTriangle<double>& t, int x, int y) {
   Vec4<double> error(0), slope_error(0);  // of c/w and its slope
   for (int i = 0; i < 3; ++i) {
     const WindowVertex<double>& v = t.v[static_cast<std::size_t>(i)];
-    const double steep = std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]), terms = kRounding * std::abs(v.inv_w);
+    const double steep = std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]), terms = arithmetic.rounding * std::abs(v.inv_w);
     q += b.value[i] * v.inv_w;
     q_slope += steep * std::abs(v.inv_w);
-    q_error += terms * (1 + kPixels * steep);
+    q_error += terms * (1 + arithmetic.pixels * steep);
     q_slope_error += terms * steep;
-    error += terms * (1 + kPixels * steep) * glm::abs(v.color);
+    error += terms * (1 + arithmetic.pixels * steep) * glm::abs(v.color);
     slope_error += terms * steep * glm::abs(v.color);
   }
   q = std::abs(q);
-  return (slope_error + size * q_slope_error + (error + size * q_error) * (q_slope / q) + slope * q_error) / q;
+  const Vec4<double> of_slopes =
+      (slope_error + size * q_slope_error + (error + size * q_error) * (q_slope / q) + slope * q_error) / q;
+  if (!arithmetic.by_differences) return of_slopes;
+  return glm::max(of_slopes, 2.0 * ((error + size * q_error) / q + arithmetic.rounding * size));
 }
 
 double depth_rounding(const WindowTriangle<double>& t) {

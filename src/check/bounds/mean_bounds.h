@@ -11,10 +11,19 @@ struct PlaneValue {
 };
 PlaneValue color_of_plane(const WindowTriangle<double>& triangle, int x, int y);
 
-/// Rounding error of color_of_plane()'s slopes in double, per channel [1/pixel]: 2^-51 of the terms of
-/// c/w, of 1/w and of their slopes, evaluated from an anchor a tile away. Far behind a corner beside the eye, c/w and
-/// 1/w are small differences of large ones.
-Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y);
+/// Numbers that slopes are computed in.
+struct SlopeArithmetic {
+  double rounding;  ///< of each term, relative
+  double pixels;    ///< distance of the anchor that planes are evaluated from
+  /// Slopes may also be differences of values a pixel apart, each with its own rounding.
+  bool by_differences = false;
+};
+inline constexpr SlopeArithmetic kSlopesInDouble{0x1p-51, 128};  ///< from an anchor a tile away
+
+/// Rounding error of color_of_plane()'s slopes, per channel [1/pixel]: `rounding` of the terms of c/w, of 1/w and of
+/// their slopes. Far behind a corner beside the eye, c/w and 1/w are small differences of large ones.
+Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y,
+                            const SlopeArithmetic& arithmetic = kSlopesInDouble);
 
 /// Rounding error of a triangle's depth in double [window z]. The plane is evaluated at an anchor at most a tile (64
 /// pixels) away and brought to the pixel, so its terms are the corners' depths and both slopes over 128 pixels; six

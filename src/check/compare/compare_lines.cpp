@@ -204,14 +204,16 @@ Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, 
   return meter.done();
 }
 
-Measurement compare_line_or_point_winners(const Scene& scene, const Capture& candidate, const Capture& reference) {
+Measurement compare_line_or_point_winners(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                          Stencils stencils) {
   const Planes &mine = candidate.planes, &theirs = reference.planes;
   std::string why;
   if (!same_size(mine.id_sum, theirs.id_sum, why) || !same_size(mine.count, theirs.count, why) ||
       !same_size(mine.count, mine.id_sum, why) || !same_size(mine.id, mine.count, why)) {
     return mismatch("pixels", why, mine.id.size());
   }
-  if (mine.stencil.size() != theirs.stencil.size()) {
+  const bool held = stencils == Stencils::compared && !mine.stencil.empty();
+  if (stencils == Stencils::compared && mine.stencil.size() != theirs.stencil.size()) {
     return mismatch("pixels", "stencil values of one side alone", mine.id.size());
   }
   if (candidate.records.depth.size() != candidate.records.covered.size()) {
@@ -220,7 +222,6 @@ Measurement compare_line_or_point_winners(const Scene& scene, const Capture& can
   const LegalWinners legal(scene, candidate.records);
   return compare_planes(mine.id, theirs.id, "pixels", [&](Meter& meter, int x, int y) {
     const std::int32_t a = mine.id(x, y), b = theirs.id(x, y);
-    const bool held = !mine.stencil.empty();
     const int stencil_a = held ? mine.stencil(x, y) : 0, stencil_b = held ? theirs.stencil(x, y) : 0;
     if (a == b && stencil_a == stencil_b) return;
     const bool alike = mine.id_sum(x, y) == theirs.id_sum(x, y) && mine.count(x, y) == theirs.count(x, y);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "capture/capture.h"
+#include "check/compare/compare_planes.h"
 #include "check/verdict/measure.h"
 #include "scene/scene.h"
 
@@ -21,6 +22,7 @@ Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, 
 /// Compares winners and stencil values of scenes with lines or points. A difference is ambiguous where the two sides
 /// cover the pixel with different primitives (coverage judges these), and where both sides' winners are legal by the
 /// candidate's earlier records (open_pixels.h, LegalWinners).
-Measurement compare_line_or_point_winners(const Scene& scene, const Capture& candidate, const Capture& reference);
+Measurement compare_line_or_point_winners(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                          Stencils stencils = Stencils::compared);
 
 }  // namespace plumbline::check

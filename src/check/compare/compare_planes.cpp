@@ -29,13 +29,13 @@ Measurement compare_coverage(const Planes& candidate, const Planes& reference, c
   return legal.empty() || illegal.differing > 0 ? illegal : compare({});
 }
 
-Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal) {
-  if (candidate.stencil.size() != reference.stencil.size()) {
+Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal, Stencils stencils) {
+  const bool held = stencils == Stencils::compared && !candidate.stencil.empty();
+  if (stencils == Stencils::compared && candidate.stencil.size() != reference.stencil.size()) {
     return mismatch("pixels", "stencil values of one side alone", candidate.id.size());
   }
   return compare_planes(candidate.id, reference.id, "pixels", [&](Meter& meter, int x, int y) {
     const std::int32_t a = candidate.id(x, y), b = reference.id(x, y);
-    const bool held = !candidate.stencil.empty();
     const int stencil_a = held ? candidate.stencil(x, y) : 0, stencil_b = held ? reference.stencil(x, y) : 0;
     if (a == b && stencil_a == stencil_b) return;
     if (!legal.empty() && answer_of_winner(legal, candidate, x, y) != nullptr) {

@@ -15,9 +15,13 @@ namespace plumbline::check {
 /// differences at open pixels are ambiguous; if open pixels alone differ, these pixels count as different.
 Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal = {});
 
+/// Whether a candidate's stencil values are compared with its winners.
+enum class Stencils { compared, not_shown };
+
 /// Compares winners and stencil values. A pixel that differs is ambiguous if both sides' values are a legal answer,
 /// disputed if only the candidate's are, else different. `legal` empty: every difference counts.
-Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal);
+Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal,
+                            Stencils stencils = Stencils::compared);
 
 /// Compares depth or colour at the pixels where both sides have the same winner; compare_winners() judges the other
 /// pixels. Tolerance: `factor` u of the magnitude of a plane that is evaluated in float from the window's origin

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -19,79 +21,83 @@ namespace {
 // Levels of detail below this one count as it: their texels are those of magnification.
 constexpr double kLeastLod = -16;
 
-// Rounding error of a level of detail in double, which shows where texel coordinates hardly change between pixels.
-class LodRounding {
- public:
-  LodRounding(const Scene& scene, const Records<double>& records) : scene_(scene), records_(records), draws_(scene) {}
-
-  double operator()(const Covered& c) const {
-    const auto& texcoords = records_.varyings[Varying::texture].triangles;
-    if (c.triangle >= records_.triangles.size() || c.triangle >= texcoords.size()) return 0;
-    WindowTriangle<double> t = records_.triangles[c.triangle];
-    const Draw* draw = draws_.draw(t.primitive);
-    if (draw == nullptr || !draw->texture) return 0;
-    for (std::size_t k = 0; k < 3; ++k) t.v[k].color = texcoords[c.triangle][k];
-    const Texture& texture = scene_.textures.at(draw->texture->texture);
-    const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
-    const Vec2<double> size(base.width, base.height);
-    const PlaneValue plane = color_of_plane(t, c.x, c.y);
-    const double rho =
-        std::max(glm::length(size * Vec2<double>(plane.d_dx)), glm::length(size * Vec2<double>(plane.d_dy)));
-    const double error = glm::length(size * Vec2<double>(slope_rounding(t, c.x, c.y)));
-    if (!std::isfinite(error) || !std::isfinite(rho)) return 0;
-    if (error < rho) return -std::log2(1 - error / rho);  // down to rho - error; up is less
-    // Nothing of rho but its rounding is known: either level is at most that of rho + error.
-    return std::max(0.0, std::log2(rho + error) + texture.sampler.lod_bias - kLeastLod);
-  }
-
- private:
-  const Scene& scene_;
-  const Records<double>& records_;
-  DrawIndex draws_;
+// A fragment's texture, and its coordinates in the texture.
+struct Textured {
+  const Texture* texture = nullptr;  // null: the fragment has none
+  std::optional<Vec2<double>> st{};  // nullopt: not shown
 };
-
-// Legal texels of fragments at their own texture coordinates and levels of detail, by the candidate's conventions.
-class TexelsAtLevels {
+class TexturedFragments {
  public:
-  TexelsAtLevels(const Scene& scene, const Records<double>& records, const Conventions& conventions)
-      : scene_(scene), records_(records), draws_(scene), rules_(math::level_rules(conventions)) {}
-
-  TexelRange operator()(std::size_t i) const {
+  TexturedFragments(const Scene& scene, const Records<double>& records)
+      : scene_(scene), records_(records), draws_(scene) {}
+  Textured operator()(std::size_t i) const {
     const Covered& c = records_.covered[i];
     const auto& texcoords = records_.varyings[Varying::texture].fragments;
-    TexelRange none;
-    none.lo = none.hi = {0, 0, 0, 1};
-    if (c.triangle >= records_.triangles.size() || i >= texcoords.size()) return none;
+    if (c.triangle >= records_.triangles.size()) return {};
     const Draw* draw = draws_.draw(records_.triangles[c.triangle].primitive);
-    if (draw == nullptr || !draw->texture) return none;
-    const double lod = records_.texels[i].lod;
-    return math::texel_range(scene_.textures.at(draw->texture->texture), Vec2<double>(texcoords[i]), lod, lod, rules_);
+    if (draw == nullptr || !draw->texture) return {};
+    Textured out{&scene_.textures.at(draw->texture->texture)};
+    if (i < texcoords.size()) out.st = Vec2<double>(texcoords[i]);
+    return out;
   }
 
  private:
   const Scene& scene_;
   const Records<double>& records_;
   DrawIndex draws_;
-  math::LevelRules rules_;
 };
 
-// Largest component of the texture of each fragment's draw, at least 1; 1 without one.
-class TexelMagnitudes {
- public:
-  TexelMagnitudes(const Scene& scene, const Records<double>& records) : records_(records), draws_(scene) {
-    for (const Texture& texture : scene.textures) of_texture_.push_back(std::max(1.0, largest_texel(texture)));
-  }
-  double operator()(const Covered& c) const {
-    if (c.triangle >= records_.triangles.size()) return 1;
-    const Draw* draw = draws_.draw(records_.triangles[c.triangle].primitive);
-    return draw != nullptr && draw->texture ? of_texture_.at(draw->texture->texture) : 1;
-  }
+// Rounding error of a level of detail, which shows where texel coordinates hardly change between pixels. Of a foreign
+// candidate in float, as its attributes may be: 4 u of each term from the window's origin, or of values a pixel apart.
+double lod_rounding(const Records<double>& records, const Covered& c, const Texture& texture, bool is_foreign) {
+  const auto& texcoords = records.varyings[Varying::texture].triangles;
+  if (c.triangle >= texcoords.size()) return 0;
+  WindowTriangle<double> t = records.triangles[c.triangle];
+  for (std::size_t k = 0; k < 3; ++k) t.v[k].color = texcoords[c.triangle][k];
+  const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
+  const Vec2<double> size(base.width, base.height);
+  const PlaneValue plane = color_of_plane(t, c.x, c.y);
+  const double rho =
+      std::max(glm::length(size * Vec2<double>(plane.d_dx)), glm::length(size * Vec2<double>(plane.d_dy)));
+  const SlopeArithmetic in_float{4 * u, 2.0 + c.x + c.y, true};
+  const Vec4<double> rounding = slope_rounding(t, c.x, c.y, is_foreign ? in_float : kSlopesInDouble);
+  const double error = glm::length(size * Vec2<double>(rounding));
+  if (!std::isfinite(error) || !std::isfinite(rho)) return 0;
+  if (error < rho) return -std::log2(1 - error / rho);  // down to rho - error; up is less
+  // Nothing of rho but its rounding is known: either level is at most that of rho + error.
+  return std::max(0.0, std::log2(rho + error) + texture.sampler.lod_bias - kLeastLod);
+}
 
- private:
-  const Records<double>& records_;
-  DrawIndex draws_;
-  std::vector<double> of_texture_;
-};
+// Legal texels of a foreign fragment at its texture coordinates, for levels of detail from `lod_lo` to `lod_hi`, by
+// the candidate's conventions.
+TexelRange legal_texels(const Textured& of, double lod_lo, double lod_hi, const math::LevelRules& rules) {
+  TexelRange none;
+  none.lo = none.hi = {0, 0, 0, 1};
+  return of.st ? math::texel_range(*of.texture, *of.st, lod_lo, lod_hi, rules) : none;
+}
+
+// The same, where the texel's coordinates are computed in float: 4 u of s and of t off (texture_bounds.h).
+TexelRange legal_texels_in_float(const Textured& of, double lod_lo, double lod_hi, const math::LevelRules& rules) {
+  TexelRange out = legal_texels(of, lod_lo, lod_hi, rules);
+  if (!of.st) return out;
+  const Vec2<double> error = 4 * u * glm::abs(*of.st);
+  const Vec4<double> slack = out.slope_s * error.s + out.slope_t * error.t;
+  for (const Vec2<double>& way : {Vec2<double>(-1, -1), {-1, 1}, {1, -1}, {1, 1}}) {
+    const TexelRange beside = math::texel_range(*of.texture, *of.st + way * error, lod_lo, lod_hi, rules);
+    out.lo = glm::min(out.lo, beside.lo);
+    out.hi = glm::max(out.hi, beside.hi);
+  }
+  out.lo -= slack;
+  out.hi += slack;
+  return out;
+}
+
+// Largest distance of a texel's channel from a range.
+double distance_from(const Vec4<double>& texel, const TexelRange& range) {
+  double most = 0;
+  for (int k = 0; k < 4; ++k) most = std::max(most, distance_outside(texel[k], range.lo[k], range.hi[k]));
+  return most;
+}
 
 }  // namespace
 
@@ -101,34 +107,43 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   if (candidate.texels.size() != count || reference.texels.size() != count) {
     return mismatch("u", "not a texel for each fragment", std::max(candidate.texels.size(), count));
   }
-  const TexelMagnitudes magnitudes(scene, candidate);
-  const LodRounding rounding(scene, candidate);
-  const TexelsAtLevels at_level(scene, candidate, conventions);
+  const TexturedFragments textured(scene, candidate);
+  std::map<const Texture*, double> magnitudes;
+  for (const Texture& texture : scene.textures) magnitudes[&texture] = std::max(1.0, largest_texel(texture));
+  magnitudes[nullptr] = 1;
+  const math::LevelRules rules = math::level_rules(conventions);
   Meter meter("u");
   const bool is_foreign = legal != nullptr && legal->size() == count;
   const bool is_per_pixel = conventions.level_of_detail == Conventions::LevelOfDetail::per_pixel;
   for (std::size_t i = 0; i < count; ++i) {
     const Covered& c = candidate.covered[i];
     const Texel<double>&a = candidate.texels[i], &b = reference.texels[i];
+    const Textured of = textured(i);
     const bool lacks_lod = is_foreign && std::isnan(a.lod);
-    const double magnitude = magnitudes(c);
-    const TexelRange range = !is_foreign ? TexelRange{} : lacks_lod ? (*legal)[i] : at_level(i);
+    const double unit = u * magnitudes.at(of.texture);
+    TexelRange range;
+    if (is_foreign) {
+      const double lo = lacks_lod ? (*legal)[i].lambda_lo : a.lod, hi = lacks_lod ? (*legal)[i].lambda_hi : a.lod;
+      range = lacks_lod ? (*legal)[i] : legal_texels(of, lo, hi, rules);
+      if (!(distance_from(a.color, range) <= factor * unit)) range = legal_texels_in_float(of, lo, hi, rules);
+    }
     for (int k = 0; k < 4; ++k) {
       const double off =
           is_foreign ? distance_outside(a.color[k], range.lo[k], range.hi[k]) : difference(a.color[k], b.color[k]);
-      meter.value(off / (u * magnitude), factor, {c.x, c.y, c.triangle, "texel"}, a.color[k], b.color[k]);
+      meter.value(off / unit, factor, {c.x, c.y, c.triangle, "texel"}, a.color[k], b.color[k]);
     }
     if (lacks_lod) {
       meter.item();
       continue;
     }
     const double lod = std::max(a.lod, kLeastLod), exact = std::max(b.lod, kLeastLod);
-    const double unit = u * std::max(1.0, std::abs(exact));
+    const double of_lod = u * std::max(1.0, std::abs(exact));
     const double off = is_foreign && !is_per_pixel ? distance_outside(lod, std::max((*legal)[i].lambda_lo, kLeastLod),
                                                                       std::max((*legal)[i].lambda_hi, kLeastLod))
                                                    : difference(lod, exact);
-    meter.value(off / unit, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
-                off <= factor * unit ? 0 : rounding(c) / unit);
+    const bool needed = !(off <= factor * of_lod) && of.texture != nullptr;
+    meter.value(off / of_lod, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
+                needed ? lod_rounding(candidate, c, *of.texture, is_foreign) / of_lod : 0);
     meter.item();
   }
   return meter.done();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "check/compare/compare_records.h"
 #include "check/compare/window_area.h"
 #include "check/diagnose/coverage_differences.h"
 #include "check/diagnose/known_causes.h"

@@ -105,7 +105,7 @@ void close_illegal(const SceneJudgement& c, Plane<std::uint8_t>& open) {
 // (open_by_double) and the oracle calls the winner legal.
 void compare_visible(const SceneJudgement& c, const Capture& made, const JudgeId& name) {
   const auto compare = [&](const Capture& theirs) {
-    return worse(compare_winners(c.candidate.planes, theirs.planes, Legal{}),
+    return worse(compare_winners(c.candidate.planes, theirs.planes, Legal{}, c.stencils()),
                  compare_drawn(c.candidate.records, theirs.records));
   };
   Measurement m = compare(made);
@@ -120,7 +120,7 @@ void compare_visible(const SceneJudgement& c, const Capture& made, const JudgeId
     m = compare(settled);
     m.ambiguous += pixels;
   }
-  c.add(name, Stage::visibility, std::move(m));
+  c.add(name, Stage::visibility, std::move(m), nullptr, c.note_of_winners());
 }
 
 // Exact's planes. Where the scene's clear depth lies half way between two codes, the background has the code that a

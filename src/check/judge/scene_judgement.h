@@ -10,6 +10,7 @@
 
 #include "capture/capture.h"
 #include "capture/renderer.h"
+#include "check/compare/compare_planes.h"
 #include "check/verdict/ledger.h"
 #include "check/verdict/measure.h"
 #include "check/verdict/verdict.h"
@@ -46,6 +47,15 @@ struct SceneJudgement {
   const Legal& open_coverage() const {
     static const Legal none;
     return foreign ? legal : none;
+  }
+  /// Whether a foreign candidate shows no stencil values of a frame that has some: its winners alone are compared.
+  Stencils stencils() const {
+    const bool has_some = scene.frame.stencil != StencilFormat::none;
+    return foreign && has_some && candidate.planes.stencil.empty() ? Stencils::not_shown : Stencils::compared;
+  }
+  /// Note of a row that compares winners.
+  std::string note_of_winners() const {
+    return stencils() == Stencils::compared ? "" : "its winners alone: it shows no planes.stencil";
   }
   /// Appends a copy of the judge's row of stage `of` as the row of `stage`: the same plane shows both.
   void repeat(const JudgeId& judge, Stage of, Stage stage) const {

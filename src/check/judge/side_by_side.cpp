@@ -144,11 +144,13 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
     case Stage::visibility:
       if (!draws_depth_codes(c.scene, theirs)) return skip(no_such_depth(c.scene.frame));
       if (!draws_lines_or_points(c.scene)) {
-        return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal));
+        return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal, c.stencils()), nullptr,
+                     c.note_of_winners());
       }
       if (lacks_fragment_records(c.candidate)) return skip(kOverBudget);
       if (mine.depth.size() != mine.covered.size()) return skip("it shows no depths of fragments");
-      return c.add(name, stage, compare_line_or_point_winners(c.scene, c.candidate, theirs));
+      return c.add(name, stage, compare_line_or_point_winners(c.scene, c.candidate, theirs, c.stencils()), nullptr,
+                   c.note_of_winners());
     case Stage::merge: return compare_shown_frame(c, theirs, name);
     case Stage::resolve: return;
   }

@@ -36,6 +36,10 @@ std::string lacking_beside(const Scene& scene, const Planes& planes, const Rende
     return lacking_records(scene, candidate, {Stage::coverage, Stage::depth});
   }
   if (stage == Stage::coverage || stage == Stage::visibility) return "";
+  if (stage > Stage::coverage && stage != Stage::texture && !has_plane(planes, stage))
+    return fmt::format("it shows no {}", stage == Stage::depth   ? "planes.depth"
+                                         : stage == Stage::merge ? "planes.color"
+                                                                 : "planes.shaded");
   StageSet inputs = inputs_of(stage);
   if (stage > Stage::coverage) {
     if (planes.id.empty()) return "visibility: it shows no winners";

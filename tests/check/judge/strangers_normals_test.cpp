@@ -1,12 +1,18 @@
-// Normals of a stranger: of any length where the draw has them normalized. Varyings that a stranger does not show.
+// Normals of a stranger: of any length where the draw has them normalized. Varyings and planes that a stranger does not
+// show.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>
 
+#include "capture/renderers/replayed_renderer.h"
 #include "check/judge/judge_single.h"
+#include "check/judge/stage_inputs.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
+#include "tests/check/fixtures.h"
 #include "tests/check/judge/judge_fixtures.h"
 #include "tests/check/suite_scenes.h"
 
@@ -91,6 +97,43 @@ TEST(StrangersNormals, HaveTheirLengthWhereTheyAreNot) {
   };
   EXPECT_EQ(outcome(1), Outcome::within);
   EXPECT_EQ(outcome(3), Outcome::different);
+}
+
+// Winners are compared without the stencil values that a stranger does not show.
+TEST(StrangersPlanes, OfStencilValuesMayLack) {
+  const auto outcome = [](bool shows_stencil, bool is_wrong) {
+    return outcome_of("stencil/ops", Stage::visibility, [=](Capture& capture) {
+      if (!shows_stencil) capture.planes.stencil = {};
+      if (shows_stencil && is_wrong) ++capture.planes.stencil(0, 0);
+      if (!shows_stencil && is_wrong) capture.planes.id(0, 0) = 1 - std::max(capture.planes.id(0, 0), 0);
+    });
+  };
+  EXPECT_NE(outcome(true, false), Outcome::different);
+  EXPECT_EQ(outcome(true, true), Outcome::different);
+  EXPECT_NE(outcome(false, false), Outcome::different);
+  EXPECT_EQ(outcome(false, true), Outcome::different);
+}
+
+TEST(StrangersPlanes, OfStencilValuesAreNotReadWhereTheFrameHasNone) {
+  const Scene scene = suite_scene("fog/linear");
+  Capture capture = exact_capture(scene);
+  capture.planes.stencil = Plane<std::uint8_t>(capture.width, capture.height, 0);
+  const auto renderer = make_replayed_renderer(std::move(capture), scene, "test");
+  EXPECT_TRUE(renderer->capture(scene, {}).planes.stencil.empty());
+  EXPECT_TRUE(renderer->info()[Stage::visibility].shows);
+}
+
+// A row beside another renderer's plane needs the candidate's plane.
+TEST(StrangersPlanes, ThatLackAreNotComparedBesideAnothers) {
+  const Scene scene = suite_scene("fog/linear");
+  Planes planes = exact_capture(scene).planes;
+  const RendererInfo info = pipeline::make_pipeline()->info();
+  EXPECT_EQ(lacking_beside(scene, planes, info, Stage::shade), "");
+  planes.shaded = {};
+  EXPECT_EQ(lacking_beside(scene, planes, info, Stage::shade), "it shows no planes.shaded");
+  EXPECT_EQ(lacking_beside(scene, planes, info, Stage::depth), "");
+  planes.depth = {};
+  EXPECT_EQ(lacking_beside(scene, planes, info, Stage::depth), "it shows no planes.depth");
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <string>
 
 #include "check/judge/rows.h"
+#include "reference/arithmetic/texture.h"
 #include "renderers/pipeline_renderer.h"
+#include "scene/draw_index.h"
 #include "scene/file/scene_file.h"
 #include "tests/check/fixtures.h"
 #include "tests/learn/drawn_otherwise.h"
@@ -102,6 +104,46 @@ TEST(StrangersTextures, APolygonOffsetHasTheDeclaredUnit) {
   EXPECT_EQ(row(scene, candidate, Stage::depth, C()).outcome, Outcome::different);
   EXPECT_NE(row(scene, candidate, Stage::depth, declared).outcome, Outcome::different);
   EXPECT_EQ(row(scene, ours, Stage::depth, declared).outcome, Outcome::different);
+}
+
+// Texels of the candidate's fragments at texture coordinates that are off by a share of themselves.
+Capture sampled_off_by(const Scene& scene, Capture candidate, double share) {
+  const DrawIndex draws(scene);
+  Records<double>& r = candidate.records;
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    const Draw* draw = draws.draw(r.triangles[r.covered[i].triangle].primitive);
+    if (!draw->texture) continue;
+    const Vec2<double> st = (1 + share) * Vec2<double>(r.varyings[Varying::texture].fragments[i]);
+    r.texels[i].color =
+        math::filtered_texel(scene.textures.at(draw->texture->texture), st, r.texels[i].lod, math::level_rules(C()));
+  }
+  return candidate;
+}
+
+// t = 0.145833328 of 48 rows is 7 in float, 6.99999974 in double: another row.
+TEST(StrangersTextures, TexelCoordinatesMayBeComputedInFloat) {
+  for (const char* name : {"texture/borders_at_centres.json", "texture/wall_repeat.json"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = scene_of_suite(name);
+    const Capture ours = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
+    for (const double share : {3 * kU, -3 * kU})
+      EXPECT_NE(row(scene, sampled_off_by(scene, ours, share), Stage::texture, C()).outcome, Outcome::different);
+    EXPECT_EQ(row(scene, sampled_off_by(scene, ours, 1e-4), Stage::texture, C()).outcome, Outcome::different);
+    Capture lost = sampled_off_by(scene, ours, 3 * kU);
+    lose_levels(lost);
+    EXPECT_NE(row(scene, lost, Stage::texture, C()).outcome, Outcome::different);
+  }
+}
+
+TEST(StrangersTextures, ALevelOfDetailMayBeComputedInFloat) {
+  const Scene scene = scene_of_suite("texture/floor_linear.json");
+  const auto off_by = [&](double lod) {
+    Capture out = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
+    for (Texel<double>& texel : out.records.texels) texel.lod += lod;
+    return row(scene, sampled_off_by(scene, out, 0), Stage::texture, C()).outcome;
+  };
+  EXPECT_NE(off_by(16 * kU), Outcome::different);
+  EXPECT_EQ(off_by(0.01), Outcome::different);
 }
 
 }  // namespace
