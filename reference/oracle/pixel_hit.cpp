@@ -31,6 +31,21 @@ void set_window_depth(const Triangle& t, bool clamps, const PixelDepth& plane, d
   out.hit.z_hi = std::clamp(farthest + rounding, low, high);
 }
 
+/// Error of z_view by that of the corners' depths, at a point of that z_view.
+double corner_error_at(const PixelSite& site, double z, bool clamps) {
+  const double from_middle = std::abs(2 * z - 1), z_ndc = clamps ? from_middle : std::min(from_middle, 1.0);
+  return kFloatRounding * (site.t.roundings * (site.t.size.z + z_ndc * site.t.size.w) / (2 * site.w) + 1);
+}
+
+/// Whether the near or the far plane certainly cuts the triangle off at the pixel. What is left of the triangle is a
+/// polygon that is displaced by at most `delta` [pixels], whatever plane its depths go through.
+bool is_cut_off(const PixelSite& site, double delta) {
+  if (site.t.flat || site.scene.depth_clamp) return false;
+  const double z = 0.5 + glm::dot(site.t.z_plane, site.d);
+  const double most = glm::length(glm::dvec2(site.t.z_plane)) * delta + corner_error_at(site, z, false);
+  return z < -most || z > 1 + most;
+}
+
 /// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane may be
 /// snapped alike, by the plane's own error where depth_corners are as they are; plus the corners' depth error.
 void set_depth(const PixelSite& site, PixelHit& out) {
@@ -50,8 +65,7 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   }
   view.z = 0.5 + glm::dot(t.z_plane, site.d);
   view.slope = glm::dvec2(t.z_plane);
-  const double from_middle = std::abs(2 * view.z - 1), z_ndc = clamps ? from_middle : std::min(from_middle, 1.0);
-  const double corner_error = kFloatRounding * (t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * site.w) + 1);
+  const double corner_error = corner_error_at(site, view.z, clamps);
   const double of_plane = glm::dot(glm::abs(view.slope), weight * site.moved) + weight * corner_error;
   view.half = of_plane + glm::dot(glm::abs(view.slope), glm::dvec2(scene.step));
   // By the near or far plane, here: cuts are snapped, whatever the plane goes through.
@@ -84,6 +98,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   // A triangle seen edge on may, by rounding, cover a pixel by its part nearest to the eye.
   out.delta = t.flat ? t.reach : std::min(t.reach, projected.snap + t.growth * glm::length(site.moved));
   if (!site.inside && !t.loose && site.border > out.delta) return std::nullopt;
+  if (is_cut_off(site, out.delta)) return std::nullopt;
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;

@@ -91,6 +91,16 @@ TEST(OracleConventions, DepthsBetweenCornersAsTheyAreDoNotMoveWithTheGrid) {
   EXPECT_EQ(half(C::DepthCorners::either), half(C::DepthCorners::snapped));
 }
 
+// A corner on the near plane makes a piece of the cut triangle thin, so that any depth is legal beside its border; what
+// lies beyond the plane is cut off all the same.
+TEST(OracleConventions, ThinPiecesOfACutDoNotReachBeyondThePlane) {
+  const Scene scene = window_scene({{glm::vec3(4, 4, 0), {28, 4, -1}, {4, 28, 1}}});
+  const Legal answers = legal(scene, {});
+  EXPECT_EQ(answers.at(20, 5).size(), 1u);
+  EXPECT_EQ(answers.at(20, 5).front().primitive, kBackground);
+  EXPECT_EQ(answers.at(6, 20).back().primitive, 0);
+}
+
 // A renderer that leaves the sides to the raster cuts at the near plane alone: its corners lie far outside the window,
 // and its depths in float are off by more.
 TEST(OracleConventions, CornersOfTheNearPlanesCutsMayLieFarOutside) {
