@@ -286,11 +286,17 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
 
 namespace {
 
-/// Whether the slopes hold for an error of `bound` in s and t: less than half a texel of each linearly filtered level.
-bool within_slopes(const Texture& texture, const TexelRange& range, double bound) {
-  if (range.last_linear < range.first_linear) return std::isfinite(bound);
+/// Whether the slopes hold for errors of `bound` in s and t: less than half a texel of each linearly filtered level.
+bool within_slopes(const Texture& texture, const TexelRange& range, glm::dvec2 bound) {
+  if (range.last_linear < range.first_linear) return std::isfinite(bound.s + bound.t);
   const TextureLevel& finest = texture.levels[static_cast<std::size_t>(range.first_linear)];
-  return bound * std::max(finest.width, finest.height) < 0.5;
+  return bound.s * finest.width < 0.5 && bound.t * finest.height < 0.5;
+}
+
+/// Whether the nearest texel is open: another one lies within the bound of s or of t.
+bool is_open(const TexelRange& range, glm::dvec2 bound) {
+  const auto known = [&](glm::length_t k) { return bound[k] == 0 || bound[k] < range.gap[k]; };
+  return !(known(0) && known(1));
 }
 
 }  // namespace
@@ -300,10 +306,10 @@ BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& st
   const TexelRange range = texel_range(texture, place.st, place.lambda_lo, place.lambda_hi, rules);
   const glm::dvec4 texel = filtered_texel(texture, place.st, place.lambda, rules);
   BoundedFour out{textured_color(texture.format, state, fragment.value, texel), 0};
-  const bool open = !(place.bound < std::min(range.gap.s, range.gap.t)) ||
-                    !within_slopes(texture, range, place.bound) || !std::isfinite(fragment.bound);
+  const bool open =
+      is_open(range, place.bound) || !within_slopes(texture, range, place.bound) || !std::isfinite(fragment.bound);
   if (open) return {out.value, std::numeric_limits<double>::infinity()};
-  const glm::dvec4 slack = (range.slope_s + range.slope_t) * place.bound;
+  const glm::dvec4 slack = range.slope_s * place.bound.s + range.slope_t * place.bound.t;
   const glm::dvec4 lo = range.lo - slack, hi = range.hi + slack;
   // Every environment is linear in each of Cf, Af, Cs and As: its extremes are at the ends of their intervals.
   for (unsigned ends = 0; ends < 16; ++ends) {

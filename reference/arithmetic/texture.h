@@ -75,7 +75,7 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
 /// Texture coordinates and lambda, with their bounds.
 struct BoundedPlace {
   glm::dvec2 st{0};
-  double bound = 0;  ///< bound on the error of s and of t
+  glm::dvec2 bound{0};  ///< on the errors of s and of t
   double lambda = 0, lambda_lo = 0, lambda_hi = 0;
 };
 /// textured_color() of a fragment and a place with bounds; the bound is infinite where (s, t) is too uncertain to tell

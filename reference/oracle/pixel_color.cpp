@@ -20,7 +20,11 @@ BoundedPlace place_in_texture(const Texture& texture, const PixelSite& site, con
   const Triangle& t = site.t;
   const glm::ivec2 pixel = site.pixel;
   const glm::dvec3 centre = site.scene.to_centre(site.d);
-  BoundedPlace out{glm::dvec2(st.value), st.bound, 0, kInfinity, -kInfinity};
+  BoundedPlace out{glm::dvec2(st.value), glm::dvec2(st.bound), 0, kInfinity, -kInfinity};
+  for (glm::length_t k = 0; k < 2; ++k) {  // a coordinate that is 0 at all corners is 0 in any arithmetic
+    const auto is_0 = [&](std::uint32_t corner) { return site.scene.corners[corner].texcoord[k] == 0; };
+    if (std::isfinite(st.bound) && std::ranges::all_of(t.corner, is_0)) out.bound[k] = 0;
+  }
   const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
   const double least_off = std::max(1 - off, 0.0);
   for (int k = 0; k < 4; ++k) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "reference/arithmetic/fog.h"
+#include "reference/arithmetic/texture.h"
 
 namespace plumbline::math {
 namespace {
@@ -80,6 +81,23 @@ TEST(BoundedNumbers, FogIsWithinItsBound) {
       EXPECT_GE(apart, f.error * (1 - 10 * static_cast<double>(fog.density) * dz)) << z;
     }
   }
+}
+
+// At t = 0, the border of two rows, the row is known where t is; at s = 1/4, the middle of a texel, the column is.
+TEST(BoundedTexels, AreKnownOnABorderWhoseCoordinateIsKnown) {
+  Texture texture;
+  texture.sampler.min = MinFilter::nearest, texture.sampler.mag = MagFilter::nearest;
+  texture.levels.resize(1);
+  texture.levels[0].width = texture.levels[0].height = 2;
+  texture.levels[0].texels = {glm::vec4(0), glm::vec4(0.25f), glm::vec4(0.5f), glm::vec4(1)};
+  const auto bound = [&](glm::dvec2 of_st) {
+    const BoundedPlace place{.st = {0.25, 0}, .bound = of_st, .lambda = -1, .lambda_lo = -1, .lambda_hi = -1};
+    return bounded_textured_color(texture, DrawTexture{}, {glm::dvec4(1), 0}, place).bound;
+  };
+  EXPECT_LT(bound({0, 0}), 1e-5);
+  EXPECT_LT(bound({0.2, 0}), 1e-5);
+  EXPECT_FALSE(std::isfinite(bound({0.3, 0}))) << "another column";
+  EXPECT_FALSE(std::isfinite(bound({0, 1e-9}))) << "another row";
 }
 
 }  // namespace
