@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "capture/by_conventions.h"
@@ -186,27 +189,70 @@ void color_answers(const Scene& scene, const Projected& projected, std::span<Pix
   }
 }
 
-/// Sets the legal interval of the frame's colour at a pixel: unbounded unless it is certain which fragments are drawn.
-void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, int x, int y,
-                 Legal& legal) {
+/// Interval of the frame's colour by hits that all cover the pixel; nullopt: it is open which of their fragments are
+/// drawn, or one has no bound.
+std::optional<ColorInterval> color_of(const Scene& scene, const Projected& projected, std::span<const Hit> hits) {
   FrameColor color(scene.frame, projected.conventions.blending, projected.conventions.color_rounding,
                    BlendedIn::floats);
   LegalFold fold(scene.frame);
-  bool certain = true;
   for (const Hit& hit : hits) {
     if (!hit.alpha_passes) continue;
     const std::int32_t held = fold.winners().front().primitive;
-    fold.draw(hit, hit.certain);
+    fold.draw(hit, true);
     const std::vector<LegalAnswer>& left = fold.winners();
     const bool drawn = left.size() == 1 && left[0].primitive == static_cast<std::int32_t>(hit.primitive);
     const bool hidden = left.size() == 1 && left[0].primitive == held;
-    certain = hit.certain && !hit.alpha_fails && drawn != hidden && (!drawn || std::isfinite(hit.color_bound));
-    if (!certain) break;  // members of groups are not certain, so none has been folded so far
+    if (hit.alpha_fails || drawn == hidden || (drawn && !std::isfinite(hit.color_bound))) return std::nullopt;
     if (drawn) color.write(draw_of(scene, projected, hit).merge, around(hit.color, hit.color_bound));
   }
+  return color.written();
+}
+
+/// Choices of one member of each group; empty: they are more than `most`.
+std::vector<std::vector<bool>> choices(std::span<const Hit> hits, std::size_t most) {
+  std::map<int, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].certain) members[hits[i].group].push_back(i);
+  }
+  std::vector<std::vector<bool>> out(1, std::vector<bool>(hits.size(), false));
+  for (std::size_t i = 0; i < hits.size(); ++i) out[0][i] = hits[i].certain;
+  for (const auto& [group, of_group] : members) {
+    std::vector<std::vector<bool>> longer;
+    for (const std::vector<bool>& chosen : out) {
+      for (const std::size_t member : of_group) longer.emplace_back(chosen)[member] = true;
+    }
+    if (longer.size() > most) return {};
+    out = std::move(longer);
+  }
+  return out;
+}
+
+/// Sets the legal interval of the frame's colour at a pixel: unbounded unless it is certain which fragments are drawn,
+/// but for the members of groups, one of which is. `is_counted`: each group makes one fragment, and all other hits are
+/// certain.
+void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, bool is_counted, int x,
+                 int y, Legal& legal) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  legal.color_lo(x, y) = certain ? low(color.written()) : glm::vec4(-kInfinity);
-  legal.color_hi(x, y) = certain ? high(color.written()) : glm::vec4(kInfinity);
+  constexpr std::size_t kMostChoices = 16;
+  legal.color_lo(x, y) = glm::vec4(-kInfinity);
+  legal.color_hi(x, y) = glm::vec4(kInfinity);
+  const auto is_open = [](const Hit& hit) { return !hit.certain && hit.alpha_passes; };
+  if (!is_counted && std::ranges::any_of(hits, is_open)) return;
+  glm::vec4 least(kInfinity), most(-kInfinity);
+  std::vector<Hit> covering;
+  for (const std::vector<bool>& chosen : choices(hits, kMostChoices)) {
+    covering.clear();
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (chosen[i]) covering.push_back(hits[i]);
+    }
+    const std::optional<ColorInterval> color = color_of(scene, projected, covering);
+    if (!color) return;
+    least = glm::min(least, low(*color));
+    most = glm::max(most, high(*color));
+  }
+  if (least.x > most.x) return;  // too many choices
+  legal.color_lo(x, y) = least;
+  legal.color_hi(x, y) = most;
 }
 
 /// Per pixel, whether it is one of `pixels`; empty where they are none.
@@ -266,7 +312,8 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
       draw_inside(scene, projected, hits, x, y, out.planes);
       if (records) add_fragments(projected, hits, x, y, request.records, out.records);
-      if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, x, y, legal);
+      const bool is_counted = legal.certain(x, y) == legal.possible(x, y);
+      if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, is_counted, x, y, legal);
       const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
       by_depth += share.area;
       centres += share.centre ? 1 : 0;
