@@ -141,7 +141,9 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
       return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z"}, z, 0);
     }
     const double of_clear = tolerance(Profile::oracle, Stage::depth).factor;
-    const auto most_apart = [&](const LegalAnswer& a) { return is_of_fragment(a) ? factor : of_clear; };
+    const auto most_apart = [&](const LegalAnswer& a) {
+      return is_of_fragment(a) ? factor + declared.product_error : of_clear;
+    };
     const LegalAnswer& nearest =
         *std::ranges::min_element(answers, {}, [&](const LegalAnswer& a) { return apart(a) / most_apart(a); });
     const double expected = std::isnan(z) ? nearest.z_lo : std::clamp(z, nearest.z_lo, nearest.z_hi);

@@ -61,6 +61,7 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
 struct DeclaredCodes {
   bool has_codes = false;                                        ///< each depth must be a code of the format
   std::optional<Conventions::Rounding> rounding = std::nullopt;  ///< of depths; none: one step either way is legal
+  double product_error = 0;                                      ///< of a depth times the largest code, in float [step]
 };
 
 /// Comparators against legal answers. A pixel with several answers counts as ambiguous; in merge, where colours are

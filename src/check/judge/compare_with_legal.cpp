@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "check/bounds/units.h"
 #include "check/compare/compare_planes.h"
 #include "check/judge/rows.h"
 
@@ -38,9 +39,13 @@ DeclaredCodes declared_codes(const SceneJudgement& c) {
   const auto is_open = [&](std::string_view name) { return std::ranges::find(d.open, name) != d.open.end(); };
   DeclaredCodes out;
   out.has_codes = !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open("depth_format");
-  // In float the product by the largest code is rounded, too, and softpipe rounds codes of 16 bits otherwise than of 24.
+  // In float the product by the largest code is rounded, too: by up to a code of 24 bits, 1/256 of one of 16. Beside
+  // stencil values OpenGL has no 16 bits: codes are made of codes of 24.
+  const FrameFormat& frame = c.scene.frame;
+  const bool is_coarse = depth_scale(frame.depth) <= 65535 && frame.stencil == StencilFormat::none;
   const bool is_exact = d.depth_arithmetic == Conventions::DepthArithmetic::in_double && !is_open("depth_arithmetic");
-  if (out.has_codes && is_exact && !is_open("depth_rounding")) out.rounding = d.depth_rounding;
+  if (out.has_codes && (is_exact || is_coarse) && !is_open("depth_rounding")) out.rounding = d.depth_rounding;
+  if (!is_exact) out.product_error = 2 * u * depth_scale(frame.depth);  // of the product, and of z as a float
   return out;
 }
 

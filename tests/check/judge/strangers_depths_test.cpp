@@ -250,5 +250,43 @@ TEST(LegalDepths, ADepthIsComparedWithTheAnswerThatAllowsIt) {
   EXPECT_TRUE(fails(compared(-1.2, -0.61)));
 }
 
+// Codes of 16 bits are held to their declared rounding though depths are interpolated in float; of 24 bits they are not.
+TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
+  const auto outcome = [](DepthFormat format, Conventions::Rounding declared, double off) {
+    Scene scene = suite_scene("depth/interpenetrating");
+    scene.frame.depth = format;
+    const auto exact = exact::make_exact();
+    const Capture expected = exact->capture(scene, {.records = StageSet::all(), .legal = true});
+    Capture mine;
+    mine.width = expected.width, mine.height = expected.height;
+    mine.planes.depth = expected.planes.depth;
+    const double scale = depth_scale(format);
+    for (std::size_t i = 0; i < mine.planes.depth.size(); ++i) {
+      double& z = mine.planes.depth.values()[i];
+      const LegalAnswer& answer = expected.legal.answers.at(expected.legal.first.at(i));
+      if (answer.primitive != kBackground) z = std::floor((answer.z_lo + answer.z_hi) / 2 * scale + off) / scale;
+    }
+    Conventions conventions;
+    conventions.depth_arithmetic = Conventions::DepthArithmetic::in_float;
+    conventions.depth_rounding = declared;
+    std::vector<Comparison> out;
+    const SceneJudgement c{.scene = scene,
+                           .candidate = mine,
+                           .legal = expected.legal,
+                           .referee = exact.get(),
+                           .rows = out,
+                           .foreign = true,
+                           .conventions = conventions};
+    compare_with_legal(c, expected.legal, Stage::depth, "exact");
+    return out.at(0).outcome;
+  };
+  using enum Conventions::Rounding;
+  EXPECT_NE(outcome(DepthFormat::z16, nearest, 0.5), Outcome::different);
+  EXPECT_EQ(outcome(DepthFormat::z16, nearest, 0), Outcome::different);
+  EXPECT_NE(outcome(DepthFormat::z16, down, 0), Outcome::different);
+  EXPECT_EQ(outcome(DepthFormat::z16, down, 0.5), Outcome::different);
+  EXPECT_NE(outcome(DepthFormat::z24, nearest, 0), Outcome::different);
+}
+
 }  // namespace
 }  // namespace plumbline::check
