@@ -344,15 +344,17 @@ TEST(Lookalikes, are_encoded_by_the_conventions) {
   EXPECT_EQ(lookalikes(scene, given).likely, "");
 }
 
-TEST(Lookalikes, what_is_legal_counts_neither_for_nor_against_them) {
+TEST(Lookalikes, what_is_legal_counts_against_them_where_it_is_most) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   GivenFrame given = drawn(scene, "attributes.affine");
   const std::size_t all = lookalikes(scene, given).apart;
-  mark(given, given.color.size() / 2);
+  mark(given, given.color.size() / 4);
   const Lookalikes found = lookalikes(scene, given);
   EXPECT_LT(found.apart, all);
   EXPECT_EQ(found.likely, "attributes (fault attributes.affine)") << found.text;
   EXPECT_TRUE(found.whole);
+  mark(given, given.color.size() * 3 / 4);
+  EXPECT_EQ(lookalikes(scene, given).likely, "");
   given.is_legal = {};
   EXPECT_EQ(lookalikes(scene, given).likely, "");
 }

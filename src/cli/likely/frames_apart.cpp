@@ -54,7 +54,7 @@ bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes, bool by_a
 bool is_clear_depth(const FrameFormat& format, double z) { return std::abs(z - format.clear_depth) <= 1.0 / 65535; }
 
 FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours)
-    : format_(format), given_(given) {
+    : format_(format), given_(given), ours_(ours) {
   const auto holds = [&](const Plane<std::uint8_t>& legal, std::size_t i) {
     return legal.size() == given.color.size() && legal.values()[i] != 0;
   };
@@ -83,6 +83,20 @@ Apart FramesApart::from(const ColorAndDepth& frame) const {
       const bool is_apart = are_colors_apart(given_, frame, i, eye) ||
                             (counted == whole && are_depths_apart(format_, given_, frame, i, eye));
       if (counted != passed_over && is_apart) ++out[look];
+    }
+  }
+  return out;
+}
+
+Apart FramesApart::against(const ColorAndDepth& frame) const {
+  Apart out{};
+  for (std::size_t look = 0; look < kLooks; ++look) {
+    const Eye& eye = kEyes[look];
+    const auto are_apart = [&](const ColorAndDepth& a, const ColorAndDepth& b, std::size_t i) {
+      return are_colors_apart(a, b, i, eye) || are_depths_apart(format_, a, b, i, eye);
+    };
+    for (std::size_t i = 0; i < given_.color.size(); ++i) {
+      if (counted_[look][i] == passed_over && are_apart(given_, frame, i) && are_apart(ours_, frame, i)) ++out[look];
     }
   }
   return out;

@@ -53,12 +53,16 @@ bool is_clear_depth(const FrameFormat& format, double z);
 /// Counts the pixels in which a frame differs from the given one, except those that are legal and differ from `ours`.
 class FramesApart {
  public:
+  /// `given` and `ours` have to outlive it.
   FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours);
   Apart from(const ColorAndDepth& frame) const;
+  /// Counts the legal pixels that contradict a fault's frame: all three frames differ there.
+  Apart against(const ColorAndDepth& frame) const;
 
  private:
   DepthFormat format_;
   const GivenFrame& given_;
+  const ColorAndDepth& ours_;
   enum Counted : std::uint8_t { whole, by_color, passed_over };
   std::array<std::vector<Counted>, kLooks> counted_;
 };

@@ -28,6 +28,7 @@ using KnownFaults = std::vector<const KnownFault*>;
 struct Lookalike {
   KnownFaults faults;
   Apart apart;
+  Apart against{};       // legal pixels that contradict the faults
   bool is_blank = true;  // nothing is drawn, wherever polygons are cut
 };
 
@@ -51,14 +52,14 @@ class Trial {
   }
   Apart apart(const ColorAndDepth& frame) const { return apart_.from(frame); }
   Lookalike made(KnownFaults faults) const {
-    Lookalike out{std::move(faults), {}};
+    Lookalike out{std::move(faults), {}, {}};
     for (const auto& [cut_at, right] : right_) {
       const ColorAndDepth frame = frame_with(out.faults, cut_at, right);
       out.is_blank &= has_one_color(frame.color, scene_.frame.clear_color) && has_clear_depth(scene_.frame, frame);
-      const Apart left = apart_.from(frame);
       const bool is_first = cut_at == CutAt::frame_sides;
       const auto nearer = [=](std::size_t a, std::size_t b) { return is_first ? b : std::min(a, b); };
-      std::ranges::transform(out.apart, left, out.apart.begin(), nearer);
+      std::ranges::transform(out.apart, apart_.from(frame), out.apart.begin(), nearer);
+      std::ranges::transform(out.against, apart_.against(frame), out.against.begin(), nearer);
     }
     return out;
   }
@@ -101,12 +102,15 @@ std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
 }
 
-// Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels. Where a stage up to coverage is
+// Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels, and no more legal ones contradict
+// the fault than those that it explains. Where a stage up to coverage is
 // wrong on its own input, or a fault of a wrong stage explains as much, only faults of wrong stages count. `all`: the
 // nearest first. Returns the fault named, or null.
 const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
-  const auto explains = [&](const Lookalike& l) { return 10 * left(l) <= out.apart; };
+  const auto explains = [&](const Lookalike& l) {
+    return 10 * left(l) <= out.apart && l.against[look] <= out.apart - left(l);
+  };
   const auto is_of_wrong = [&](const Lookalike& l) {
     return std::ranges::any_of(l.faults, [&](const KnownFault* f) { return is_of(wrong, *f); });
   };

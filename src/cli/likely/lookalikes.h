@@ -22,7 +22,7 @@ struct Lookalikes {
   double codes = 1;       ///< 1 (coarse) or 1/2 (fine) code of 8 bits, for people
   bool by_color = false;  ///< by colour alone: by depth, too, no fault explains nine tenths
   std::string text;       ///< lines for people, the nearest fault first
-  std::string likely;     ///< "STAGE (fault NAME)": the nearest, if it explains nine tenths of `apart`; else empty
+  std::string likely;  ///< "STAGE (fault NAME)": the nearest, if it explains 9/10 of `apart` (FramesApart); else empty
   bool together = false;  ///< `likely` and `ties` are of two faults each, "STAGE (fault NAME) and STAGE (fault NAME)"
   std::vector<std::string> ties;  ///< other faults that explain as many pixels
   bool whole = false;             ///< `likely` explains all pixels
