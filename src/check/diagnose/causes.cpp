@@ -38,6 +38,22 @@ std::uint64_t differing(const Evidence& e, const Capture& made) {
   return rows.empty() ? 0 : rows.back().measurement.differing;
 }
 
+// Whether a stage that hands on fewer records than it takes in has handed on none.
+bool is_empty(const Capture& made, Stage stage) {
+  switch (stage) {
+    case Stage::clip: return made.records.polygons.polygons.empty();
+    case Stage::window: return made.records.triangles.empty();
+    case Stage::coverage: return made.records.covered.empty();
+    default: return false;
+  }
+}
+
+struct Tried {
+  std::uint64_t left;  // records that the cause leaves unexplained
+  bool is_empty;       // the cause leaves no record
+  Cause cause;
+};
+
 }  // namespace
 
 Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer,
@@ -64,7 +80,7 @@ std::vector<KnownCause> all_causes() {
 
 std::vector<Cause> likely_causes(const Evidence& e) {
   std::vector<Cause> out;
-  std::vector<std::pair<std::uint64_t, Cause>> tried;  // and how many records each leaves
+  std::vector<Tried> tried;
   if (e.referee == nullptr) return out;
   const std::uint64_t all = differing(e, e.expected);
   if (all == 0) return out;
@@ -75,18 +91,23 @@ std::vector<Cause> likely_causes(const Evidence& e) {
         if (cause.shows(e)) out.push_back({cause.name, std::string(cause.words)});
         continue;
       }
-      const std::uint64_t left = differing(e, made_with(cause, e.scene, e.candidate, *e.referee, e.conventions));
+      const Capture made = made_with(cause, e.scene, e.candidate, *e.referee, e.conventions);
+      const std::uint64_t left = differing(e, made);
       if (left > all / 50) continue;
-      tried.push_back(
-          {left, {cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)}});
+      tried.push_back({left,
+                       is_empty(made, e.stage),
+                       {cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)}});
     } catch (const std::exception&) {  // the referee refuses the altered records: not this cause
     }
   }
   std::uint64_t least = all;
-  for (const auto& [left, cause] : tried) least = std::min(least, left);
-  for (auto& [left, cause] : tried) {
-    if (left == least) out.push_back(std::move(cause));
+  for (const Tried& t : tried) least = std::min(least, t.left);
+  std::erase_if(tried, [=](const Tried& t) { return t.left > least; });
+  if (tried.size() > 1 && std::ranges::all_of(tried, &Tried::is_empty)) {
+    out.push_back({"nothing_left", "it leaves nothing, as several mistakes would"});
+    return out;
   }
+  for (Tried& t : tried) out.push_back(std::move(t.cause));
   return out;
 }
 

@@ -195,5 +195,19 @@ TEST(Causes, EachThatCanBeMadeIsTold) {
   }
 }
 
+// In a frame of one row, several mistakes move all samples out of it.
+TEST(Causes, NoneIsNamedWhereNothingIsLeft) {
+  const auto exact = exact::make_exact();
+  const Scene scene = suite_scene("frame/row");
+  Capture wrong = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
+  copy_stage(Stage::coverage, {}, wrong);
+  wrong.planes.count = Plane<std::uint32_t>(wrong.width, wrong.height, 0);
+  wrong.planes.id_sum = Plane<std::uint64_t>(wrong.width, wrong.height, 0);
+  const Capture expected = exact->run_stage(scene, Stage::coverage, wrong);
+  const std::vector<Cause> causes = likely_causes({scene, Stage::coverage, wrong, expected, exact.get()});
+  ASSERT_EQ(causes.size(), 1u);
+  EXPECT_EQ(causes[0].name, "nothing_left");
+}
+
 }  // namespace
 }  // namespace plumbline::check
