@@ -146,7 +146,8 @@ const Comparison* first_different(const SceneVerdict& verdict) {
     if (first == nullptr || c.stage < first->stage) first = &c;
     if (c.judge.kind == Kind::per_stage && (alone == nullptr || c.stage < alone->stage)) alone = &c;
   }
-  return alone != nullptr && holds_alone(verdict, first->stage) ? alone : first;
+  const bool is_alone = alone != nullptr && (alone->stage == first->stage || holds_alone(verdict, first->stage));
+  return is_alone ? alone : first;
 }
 
 namespace {

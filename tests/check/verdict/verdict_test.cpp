@@ -111,7 +111,7 @@ TEST(FirstDifferent, IsTheStageThatIsWrongAloneWhereThatOfThePlanesHolds) {
   EXPECT_EQ(first_different(verdict), &verdict.comparisons[3]);
   EXPECT_TRUE(holds_alone(verdict, Stage::depth));
   verdict.comparisons[1] = judged("s", alone, Stage::depth, bad);
-  EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "depth is wrong alone";
+  EXPECT_EQ(first_different(verdict), &verdict.comparisons[1]) << "depth is wrong alone";
   EXPECT_FALSE(holds_alone(verdict, Stage::depth));
   verdict.comparisons[1] = not_judged("s", alone, Stage::depth, Outcome::unsupported, "");
   EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "nobody judged depth alone";
