@@ -76,26 +76,6 @@ constexpr auto kWorldSpace = [](Scene& scene, Draw&) {
   scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 };
 
-// Directional lights' highlights where the surface faces away from them.
-void specular_from_behind(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
-                          LitVertices& out) {
-  const std::size_t first = out.size();
-  pipeline::light(scene, draw, mesh, lights, vertices, out);
-  if (!draw.lit || scene.light_model.specular != LightModel::Specular::half_vector) return;
-  for (const Light& light : scene.lights) {
-    if (light.kind != Light::Kind::directional) continue;
-    const glm::vec3 l = glm::normalize(glm::dmat3(view_matrix(scene)) * light.vector);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const float cosine = glm::dot(vertices[i].n_eye, glm::normalize(l + glm::vec3(0, 0, 1)));
-      if (glm::dot(vertices[i].n_eye, l) > 0 || !(cosine > 0)) continue;
-      glm::vec4& color = out[first + i].color();
-      const glm::vec3 gloss =
-          pipeline::power(cosine, draw.material.shininess) * light.specular * glm::vec3(draw.material.specular);
-      color = glm::clamp(color + glm::vec4(gloss, 0), 0.0f, 1.0f);
-    }
-  }
-}
-
 void back_color_is_the_fronts(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
                               LitVertices& out) {
   const std::size_t first = out.size();
@@ -182,15 +162,18 @@ constexpr std::array kFaults = {
     of<kFarViewer>("light.far_viewer", "highlights are seen from infinitely far away, not from the eye"),
     of<kNoColorMaterial>("light.no_color_material", "vertex colours do not stand for the material"),
     of<kAmbientPerLight>("light.ambient_per_light", "the ambient light is added once more for each light"),
-    Fault{"light.specular_from_behind", "highlights shine where N.L <= 0", Stage::light,
-          put<&Stages::light, specular_from_behind>},
     Fault{"light.back_color_of_front", "back faces are lit by their front's normal and material", Stage::light,
           put<&Stages::light, back_color_is_the_fronts>},
     Fault{"light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated", Stage::light,
           put<&Stages::light, positions_by_distance>},
     per_fragment<kWorldSpace>("shade.world_space", "light per fragment: lights are not brought to eye space"),
     per_fragment<kNoAttenuation>("shade.no_attenuation", "light per fragment: lights do not fade with their distance"),
+    per_fragment<kSpotDegreesForRadians>("shade.cutoff_in_degrees",
+                                         "light per fragment: a cone's angle in degrees is taken for radians"),
     per_fragment<kConesIgnored>("shade.cones_ignored", "light per fragment: spot lights shine to all sides"),
+    per_fragment<kHalfTheCone>("shade.half_the_cone",
+                               "light per fragment: a cone's angle from its axis is taken for that from side to side"),
+    per_fragment<kConesBothWays>("shade.cones_both_ways", "light per fragment: spot lights shine backwards too"),
     per_fragment<kReflection>("shade.reflection_for_half_vector",
                               "light per fragment: highlights are by the mirrored ray, not the half vector"),
     per_fragment<kFarViewer>("shade.far_viewer",

@@ -21,11 +21,24 @@ struct LitPoint {
   EyeLight light;
   Vec3<float> p_eye, n_eye;
   float shininess;
-  std::size_t number;  ///< of the light
-  float share = 1;     ///< of the light's intensity
-  float shine = 1;     ///< of its specular colour
-  float wrapped = -1;  ///< share of its diffuse colour wherever the normal points; -1: N.L
+  std::size_t number;          ///< of the light
+  float share = 1;             ///< of the light's intensity
+  float shine = 1;             ///< of its specular colour
+  float wrapped = -1;          ///< share of its diffuse colour wherever the normal points; -1: N.L
+  bool shines_behind = false;  ///< its highlight shines where N.L <= 0, too
 };
+
+Vec3<float> towards(const LitPoint& at) { return at.light.directional ? at.light.vector : at.light.vector - at.p_eye; }
+
+/// Share of the light's specular colour where N.L <= 0 and its highlight shines there.
+float highlight_behind(const LitPoint& at, const LightModel& model) {
+  const Vec3<float> vector = towards(at), to_light = pipeline::unit(vector);
+  if (!at.shines_behind || pipeline::dot(at.n_eye, to_light) > 0) return 0;
+  const Vec3<float> to_eye = model.local_viewer ? pipeline::unit(-at.p_eye) : Vec3<float>{0, 0, 1};
+  const float cosine = pipeline::dot(at.n_eye, pipeline::unit(to_light + to_eye));
+  if (!(cosine > 0)) return 0;
+  return pipeline::reach<float>(at.light, vector, to_light) * pipeline::power(cosine, at.shininess);
+}
 
 /// The light equation as a sum of lights, each of whose points is changed.
 template <auto change, bool clamps = true>
@@ -45,7 +58,8 @@ Color<float> lit_light_by_light(const Illumination& illumination, const Reflecta
     of_one.answers[0] = {point.share * everywhere, (by_cosine ? point.share : 0.0f) * answer.diffuse,
                          point.share * point.shine * answer.specular};
     const Color<float> added = pipeline::lit<float, float>(one, of_one, point.p_eye, point.n_eye);
-    sum = {sum.r + added.r, sum.g + added.g, sum.b + added.b, sum.a};
+    const Vec3<float> behind = highlight_behind(point, illumination.model) * answer.specular;
+    sum = {sum.r + added.r + behind.x, sum.g + added.g + behind.y, sum.b + added.b + behind.z, sum.a};
   }
   if (!clamps) return sum;
   return {pipeline::clamp01(sum.r), pipeline::clamp01(sum.g), pipeline::clamp01(sum.b), sum.a};
@@ -107,8 +121,6 @@ pipeline::Shaded at_fragments(const pipeline::Surface& surface, bool front,
   return {pipeline::shade<float>(unlit, front, lit)};
 }
 
-Vec3<float> towards(const LitPoint& at) { return at.light.directional ? at.light.vector : at.light.vector - at.p_eye; }
-
 constexpr auto kAbsoluteCosine = [](LitPoint& at, const LightModel&) {
   if (pipeline::dot(at.n_eye, towards(at)) < 0) at.n_eye = -at.n_eye;
 };
@@ -162,6 +174,10 @@ constexpr auto kHalfLambert = [](LitPoint& at, const LightModel&) {
   at.wrapped = 0.5f * pipeline::dot(at.n_eye, pipeline::unit(towards(at))) + 0.5f;
 };
 
+constexpr auto kSpecularFromBehind = [](LitPoint& at, const LightModel& model) {
+  at.shines_behind = model.specular == LightModel::Specular::half_vector;
+};
+
 constexpr auto kNoChange = [](LitPoint&, const LightModel&) {};
 
 template <auto change>
@@ -190,6 +206,7 @@ constexpr std::array kTerms = {
                                            "spot lights are as bright at their cone's border"),
     term_at_vertices<kShineByCosine>("light.highlight_by_n_l", "highlights are multiplied by N.L"),
     term_at_vertices<kHalfLambert>("light.half_lambert", "diffuse light is by (N.L + 1) / 2, which no side is without"),
+    term_at_vertices<kSpecularFromBehind>("light.specular_from_behind", "highlights shine where N.L <= 0"),
     Fault{"light.not_clamped", "lit colours beyond 1 are interpolated, and clamped at the fragments", Stage::light,
           put<&Stages::light, at_vertices<kNoChange, false>>},
     term_per_fragment<kAbsoluteCosine>("shade.n_l_absolute",
@@ -212,6 +229,8 @@ constexpr std::array kTerms = {
     term_per_fragment<kConeWithoutExponent>("shade.no_spot_exponent",
                                             "light per fragment: spot lights are as bright at their cone's border"),
     term_per_fragment<kShineByCosine>("shade.highlight_by_n_l", "light per fragment: highlights are multiplied by N.L"),
+    term_per_fragment<kSpecularFromBehind>("shade.specular_from_behind",
+                                           "light per fragment: highlights shine where N.L <= 0"),
     term_per_fragment<kHalfLambert>("shade.half_lambert",
                                     "light per fragment: diffuse light is by (N.L + 1) / 2, which no side is without"),
 };
