@@ -71,7 +71,7 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   // By the near or far plane, here: cuts are snapped, whatever the plane goes through.
   const bool not_cut = clamps || (view.z - view.half > 0 && view.z + view.half < 1);
   const bool by_grid = scene.conventions.depth_corners != Conventions::DepthCorners::as_they_are;
-  const double half = by_grid || site.may_turn_over(out.hit.certain) ? view.half : of_plane;
+  const double half = by_grid || site.may_turn_over(out.hit.certain && not_cut) ? view.half : of_plane;
   double lo = view.z - half, hi = view.z + half;
   out.whole = out.whole || (t.facing_kept && not_cut);
   // Inside, every plane comes to a convex combination of the corners' depths; outside it may overshoot them.

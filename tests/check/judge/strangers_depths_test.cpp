@@ -288,5 +288,19 @@ TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
   EXPECT_NE(outcome(DepthFormat::z24, nearest, 0), Outcome::different);
 }
 
+// Beside the cut by the near plane of [0,w], snapping turns a piece over, whose plane goes through snapped corners: the C
+// renderer of tests/renderers comes to the end of the depth range there.
+TEST(LegalDepths, BesideACutMayGoThroughSnappedCorners) {
+  const Scene scene = suite_scene("depth_range/halves_z16");
+  Conventions conventions;
+  conventions.clip_depth = Conventions::ClipDepth::zero_to_w;
+  conventions.depth_corners = Conventions::DepthCorners::as_they_are;
+  const auto exact = exact::make_exact();
+  const Legal legal = exact->capture(scene, {.legal = true, .conventions = conventions}).legal;
+  double farthest = 0;
+  for (const LegalAnswer& answer : legal.at(8, 34)) farthest = answer.primitive == 25 ? answer.z_hi : farthest;
+  EXPECT_GE(farthest, 0.25 - 1e-9);
+}
+
 }  // namespace
 }  // namespace plumbline::check
