@@ -13,7 +13,7 @@ glm::dvec3 unit_of(glm::dvec3 v) {
   return length > 0 ? v / length : glm::dvec3(0);
 }
 
-/// From the point to the light: the specification's VP, not yet of unit length.
+/// Vector from the point to the light: the specification's VP, not yet of unit length.
 glm::dvec3 towards(const Light& light, const LightSource<double>& source, glm::dvec3 p_eye) {
   const glm::dvec3 place(source.p_eye);
   return light.kind == Light::Kind::directional ? place : place - p_eye;

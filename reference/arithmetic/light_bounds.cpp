@@ -22,12 +22,12 @@ Ray ray(const Light& light, const LightSource<double>& source, const Vec3<double
   const bool point = light.kind == Light::Kind::point;
   const Vec3<double> l_eye(source.p_eye);
   const Vec3<double> to_light = point ? l_eye - p_eye : l_eye;
-  // A light near the vertex: the difference of two rounded positions.
+  // Direction to a point light: a difference of two rounded positions, ill-conditioned where the light is near.
   const double distance = glm::length(to_light);
   return {to_light / distance, distance, point ? 1 + (glm::length(l_eye) + glm::length(p_eye)) / distance : 1};
 }
 
-// x^s, and its error where x has an error of `error`, by the steepest slope in that range [units of kError].
+// Power x^s, and its error where x is off by `error`, from the steepest slope in that range [units of kError].
 struct Power {
   double value, slope;
 };

@@ -14,7 +14,7 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-// Near or far as a distance: in games101 they are z coordinates.
+// Distance of a near or far plane, which games101 gives as a z coordinate.
 double distance_to(const Scene& scene, double near_or_far) {
   return scene.dialect == Dialect::games101 ? -near_or_far : near_or_far;
 }
@@ -34,7 +34,8 @@ glm::dmat4 opengl_projection(const Scene& scene) {
                  },
                  [](const Frustum& f) { return glm::frustum(f.left, f.right, f.bottom, f.top, f.near, f.far); },
                  [](const ViewPlane& v) {
-                   // An infinite pyramid that begins at the view plane, at distance d. There X_pi's w is 1, OpenGL's d.
+                   // Infinite pyramid that begins at the view plane, at distance d, where X_pi's w is 1 and OpenGL's is
+                   // d.
                    const double half = glm::radians(v.fov_degrees) / 2, d = std::cos(half) / std::sin(half);
                    return glm::infinitePerspective(2 * half, 1.0, d) / d;
                  },

@@ -19,7 +19,7 @@ namespace plumbline::math {
 
 namespace {
 
-// How far float arithmetic may be from double. u = 2^-24; A = |P| |M| |p|, component by component.
+// Bounds on the error of float arithmetic against double. u = 2^-24; A = |P| |M| |p|, component by component.
 //   rounding M's and P's entries to float: 1 + 1; the product P M, four products and three sums: 4 (of its terms'
 //   sizes); times p: 4.  So a clip coordinate in float is within 10 u A of the one in double (P (M p) comes to the
 //   same count), and dividing by w and multiplying by the scale adds 2 u |X/W| <= 2 u A_X / W. With 2 spare: 14.

@@ -8,7 +8,7 @@
 
 namespace plumbline::math {
 
-/// The scene as a renderer of these conventions sees it. `scene`: as the conventions alter it
+/// Projection of the scene as a renderer of these conventions draws it. `scene`: already altered by the conventions
 /// (capture/by_conventions.h).
 Projected project(const Scene& scene, const Conventions& conventions = {});
 

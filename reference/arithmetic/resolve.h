@@ -15,7 +15,7 @@ Plane<glm::vec4> mean_colors(const FrameFormat& frame, const std::vector<Plane<g
 /// mean_colors() in the frame's format: rounded to the nearest code, halves up.
 Plane<glm::vec4> resolved_colors(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples);
 
-/// A renderer's capture of an antialiased scene (renderer.h) from its captures of the passes: samples, resolved colour,
+/// Capture of an antialiased scene (renderer.h), from the renderer's captures of its passes: samples, resolved colour,
 /// and depth of the first sample. Throws OverBudget, and what the renderer's capture() throws.
 Capture capture_resolved(Renderer& renderer, const Scene& scene, const Request& request);
 

@@ -17,8 +17,8 @@ double squared_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
   return std::max(glm::dot(x, x), glm::dot(y, y));
 }
 
-/// What OpenGL lets rho be (2.1, 3.8.8): m_u is the larger of |du/dx| and |du/dy|, u and v in texels; rho is at least
-/// the larger of m_u and m_v, at most their sum.
+/// Range of rho that OpenGL allows (2.1, 3.8.8), from the larger of m_u and m_v to their sum; m_u is the larger of
+/// |du/dx| and |du/dy|, m_v of |dv/dx| and |dv/dy|, u and v in texels.
 struct RhoRange {
   double least, most;
 };

@@ -49,7 +49,7 @@ Barycentric::Barycentric(const WindowTriangle<double>& triangle, int width, int 
   rounded_ = {narrow(exact_.x0),    narrow(exact_.y0),    narrow(exact_.d1_dx),
               narrow(exact_.d1_dy), narrow(exact_.d2_dx), narrow(exact_.d2_dy)};
 
-  // The largest term of the sums that make a weight within the triangle's box: a long double has 64 bits.
+  // Largest term of the sums that make a weight within the triangle's bounding box: a long double has 64 bits.
   const auto [x_min, x_max] = std::minmax({narrow(p[0].x), narrow(p[1].x), narrow(p[2].x)});
   const auto [y_min, y_max] = std::minmax({narrow(p[0].y), narrow(p[1].y), narrow(p[2].y)});
   const long double dx = std::min<long double>(x_max - x_min, width) + 1;

@@ -31,7 +31,7 @@ Int128 ceil_div(Int128 a, Int128 b) { return -floor_div(-a, b); }
 
 int clamped(Int128 value, int low, int high) { return static_cast<int>(std::clamp<Int128>(value, low, high)); }
 
-/// The corners relative to the sample of pixel (0, 0).
+/// Snapped corners, counted from the sample of pixel (0, 0) [1/256 pixel].
 std::array<glm::ivec2, 3> from_sample(std::array<glm::ivec2, 3> snapped, const FrameFormat& frame) {
   const glm::ivec2 sample(static_cast<double>(kSubpixel) * math::sample_offset(frame));  // a whole number
   for (glm::ivec2& corner : snapped) corner -= sample;

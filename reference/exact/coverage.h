@@ -1,8 +1,8 @@
 // Stage 5 in integers: the pixels whose centres a snapped primitive covers.
 //
 // E(p) = cross(b - a, p - a), times the sign of the area, is positive on the inner side of the edge a -> b. The tie
-// rule left_bottom moves a sample by an infinitesimal (+e, +e^2): where E is 0, dE/dx decides, and where
-// that is 0, dE/dy. Of two triangles on either side of an edge exactly one has a sample on the edge.
+// rule left_bottom moves a sample by an infinitesimal (+e, +e^2): where E is 0, dE/dx decides, and where dE/dx is 0,
+// dE/dy. Of two triangles on either side of an edge exactly one has a sample on the edge.
 #pragma once
 
 #include <array>

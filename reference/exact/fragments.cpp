@@ -39,8 +39,8 @@ DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<
 double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
                 int y) {
   const auto b = weights.at(x, y, rule.place);
-  // Relative to the first corner, so that the weights sum to 1 exactly, and a triangle of one depth has exactly that
-  // depth.
+  // Depths relative to the first corner's: the weights then sum to 1 exactly, and a triangle of one depth has exactly
+  // that depth.
   const long double z0 = triangle.v[0].p_win.z;
   const long double z = rule.offset + z0 + b[1] * (triangle.v[1].p_win.z - z0) + b[2] * (triangle.v[2].p_win.z - z0);
   return std::clamp(static_cast<double>(z), rule.low, rule.high);

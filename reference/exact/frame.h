@@ -66,8 +66,8 @@ Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>
 
 /// Stage 11: sets planes.color and planes.depth, and the interval of legal colours where there is one, in `out`, from
 /// in.records' triangles, covered, depth, shaded and drawn. If `drawn` is empty, the drawn fragments are those of the
-/// winners in.planes.id, or, if that is empty too, those of drawn_fragments().
-/// Throws std::invalid_argument where the records do not fit the scene or each other.
+/// winners in.planes.id or, if in.planes.id is empty too, those of drawn_fragments(). Throws std::invalid_argument
+/// where the records do not fit the scene or each other.
 void merge_fragments(const Scene& scene, const Capture& in, Capture& out);
 
 }  // namespace plumbline::exact

@@ -16,8 +16,8 @@ std::vector<Matrices<double>> make_matrices(const Scene& scene);
 /// as many normals as positions.
 std::vector<Vertex<double>> transform_vertices(const Scene& scene, const std::vector<Matrices<double>>& matrices);
 
-/// The recorded lights; if none are recorded, the scene's, unrounded.
-/// Throws std::invalid_argument where another number of lights is recorded than the scene has.
+/// The recorded lights; if none are recorded, the scene's, unrounded. Throws std::invalid_argument where another number
+/// of lights is recorded than the scene has.
 std::vector<LightSource<double>> lights_of(const Scene& scene, const Records<double>& records);
 
 /// Stage 2: a colour per vertex, from records.vertices and lights_of(). Throws std::invalid_argument where the records

@@ -1,4 +1,4 @@
-// Checks and look-ups that the stages share, of the records that they are given.
+// Checks and look-ups of given records, shared by the stages.
 #pragma once
 
 #include <cstddef>

@@ -10,7 +10,7 @@
 
 namespace plumbline::exact {
 
-/// A triangle with its texture. Holds references: all must outlive it.
+/// Triangle with its texture. All members are references; the objects must outlive this one.
 struct TexturedTriangle {
   const WindowTriangle<double>& triangle;
   const std::array<glm::dvec4, 3>& texcoords;  ///< s and t at the corners

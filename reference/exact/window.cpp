@@ -37,8 +37,8 @@ glm::ivec2 snap(glm::dvec2 p_win) {
 
 namespace {
 
-/// Appends the records of a polygon that is not filled (OpenGL 2.1, section 3.5.4): its boundary edges as lines, each
-/// from a corner to the next, or its corners as points. `front`: facing by the whole polygon's area, equation 3.6.
+/// Appends the records of an unfilled polygon (OpenGL 2.1, section 3.5.4): its boundary edges as lines, from each
+/// corner to the next, or its corners as points. `front`: facing by the whole polygon's area, equation 3.6.
 void append_outline(const Draw& draw, const std::vector<WindowVertex<double>>& corners, std::uint32_t primitive,
                     bool front, PolygonMode mode, std::vector<WindowTriangle<double>>& out) {
   const std::size_t n = corners.size();

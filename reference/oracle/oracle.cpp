@@ -189,8 +189,8 @@ void color_answers(const Scene& scene, const Projected& projected, std::span<Pix
   }
 }
 
-/// Interval of the frame's colour by hits that all cover the pixel; nullopt: it is open which of their fragments are
-/// drawn, or one has no bound.
+/// Interval of the frame's colour where all these hits cover the pixel; nullopt: it is open which of their fragments
+/// are drawn, or the colour of one has no bound.
 std::optional<ColorInterval> color_of(const Scene& scene, const Projected& projected, std::span<const Hit> hits) {
   FrameColor color(scene.frame, projected.conventions.blending, projected.conventions.color_rounding,
                    BlendedIn::floats);
@@ -208,7 +208,7 @@ std::optional<ColorInterval> color_of(const Scene& scene, const Projected& proje
   return color.written();
 }
 
-/// Choices of one member of each group; empty: they are more than `most`.
+/// All choices of the certain hits and one member of each group, as a flag per hit; empty: there are more than `most`.
 std::vector<std::vector<bool>> choices(std::span<const Hit> hits, std::size_t most) {
   std::map<int, std::vector<std::size_t>> members;
   for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -82,8 +82,8 @@ class FragmentColor {
     const auto corner = [&](std::size_t i) { return of_corner(site_.scene.corners[site_.t.corner[i]]); };
     return {corner(0), corner(1), corner(2)};
   }
-  // A colour that vertices are lit to: smooth or flat. A renderer that declares float arithmetic may interpolate between
-  // three equal corners, too.
+  // Lit colour of vertices at the site, smooth or flat. A renderer that declares float arithmetic may interpolate
+  // between three equal corners, too.
   BoundedFour of_vertices(auto of_corner) const {
     std::array<BoundedFour, 3> corners = at_corners(of_corner);
     const bool is_flat = draw_.shading == Shading::flat;
@@ -94,7 +94,7 @@ class FragmentColor {
     out.bound += is_flat ? 4 * kFloatRounding : overshoot(out.value, corners);
     return out;
   }
-  // Replaces the colour, and with a separate specular colour that one, by those that the fragment is lit to.
+  // Replaces the colour and, with separate specular, the secondary colour by the colours that the fragment is lit to.
   void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
   BoundedFour textured(const BoundedFour& color) const;
   void fog(BoundedFour& color) const;

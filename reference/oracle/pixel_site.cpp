@@ -128,7 +128,7 @@ double PixelSite::snap_weight(bool certain) const {
   return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
 }
 
-// Pieces of a cut triangle that are thin lie along its border.
+// Thin pieces of a cut triangle lie along its border.
 bool PixelSite::may_show_either_face(bool certain) const { return t.thin || t.sign == 0 || (t.cut && !certain); }
 
 /// snap_weight() for the pixel's centre where the triangle covers a sample: the centre may be outside of the triangle
@@ -145,7 +145,7 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const std::array<glm::dvec3, 3> n = weight_planes(scene, t);
   const glm::dvec3 e(glm::dot(n[0], centre), glm::dot(n[1], centre), glm::dot(n[2], centre));
   const double weight = centre_weight(certain), sum = e.x + e.y + e.z;
-  // No reliable plane.
+  // Without a reliable plane: the mean of the corners, without a bound.
   if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0) || (is_affine(scene) && !t.ahead))
     return {(corners[0].value + corners[1].value + corners[2].value) / 3.0, kInfinity};
   const auto largest = [](const glm::dvec4& v) {

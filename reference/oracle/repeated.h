@@ -1,4 +1,4 @@
-// Triangles that are drawn twice in the same position: every renderer gives both the same depth.
+// Repeated triangles, drawn twice at the same positions: every renderer gives both draws the same depth.
 #pragma once
 
 #include <span>

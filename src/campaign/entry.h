@@ -27,7 +27,7 @@ struct Entry {
   std::string states{};             ///< StateBits of the scene (states/states.h)
   double milliseconds = 0;          ///< time of judging; differs from run to run
 };
-/// Whether two entries are of one scene, verdict and states, in whatever time.
+/// Whether two entries have the same scene, verdict and states; their times may differ.
 inline bool same_verdict(const Entry& a, const Entry& b) {
   return a.id == b.id && a.found == b.found && a.disputes == b.disputes && a.unable == b.unable && a.states == b.states;
 }

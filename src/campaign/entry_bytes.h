@@ -1,4 +1,4 @@
-// The fields of an entry, but its scene, for a byte archive (base/byte_archive.h).
+// Serialisation of an entry's fields, all but the scene, by a byte archive (base/byte_archive.h).
 #pragma once
 
 #include "base/byte_archive.h"

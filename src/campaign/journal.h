@@ -1,5 +1,5 @@
-// The journal of a campaign's process: what was judged is on disk before the next scene, and a process that is killed
-// goes on where it was. An SQLite file in WAL mode, which one process at a time writes.
+// Journal of a campaign's process. Each verdict is on disk before the next scene is judged: a killed process, started
+// again, goes on where it was. An SQLite file in WAL mode, which one process at a time writes.
 #pragma once
 
 #include <chrono>
@@ -14,21 +14,21 @@
 
 namespace plumbline::campaign {
 
-/// The message is: file: what is wrong, and what was expected.
+/// Error of a journal. The message names the file, what is wrong, and what was expected.
 struct JournalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Another process has the journal.
+/// Error of a journal that another process holds open.
 struct JournalInUse : JournalError {
   using JournalError::JournalError;
 };
 
 class Journal {
  public:
-  /// Makes the file, or goes on with it. `terms`: everything but the scene that decides a verdict; a journal has one.
-  /// `wait`: for a process that has it, for instance to read it. Throws JournalInUse, or JournalError where its terms
-  /// are others or it is no journal.
+  /// Creates or opens the journal. `terms`: everything but the scene that decides a verdict; a journal has one text of
+  /// terms. `wait`: for a process that holds the journal, for instance to read it. Throws JournalInUse, or JournalError
+  /// for a journal of other terms and for a file that is no journal.
   Journal(const std::filesystem::path& file, const std::string& terms, std::chrono::milliseconds wait = {});
   ~Journal();
   Journal(const Journal&) = delete;
@@ -36,9 +36,10 @@ class Journal {
 
   /// Scenes that the journal holds.
   const std::set<SceneId>& judged() const { return judged_; }
-  /// After this call SIGKILL takes nothing away; a failure of power may. A scene that the journal holds is left as it is.
+  /// Adds an entry; a scene that the journal holds stays as it is. After the call SIGKILL loses nothing; a power
+  /// failure may.
   void add(const Entry& entry);
-  /// All of them, by scene.
+  /// Entries of all scenes that the journal holds, sorted by scene.
   std::vector<Entry> entries() const;
 
  private:

@@ -69,7 +69,7 @@ std::uint64_t unable_scenes(const Results& results) {
   return out;
 }
 
-// The most frequent first.
+// Lines of the reasons why scenes could not be judged, the most frequent first.
 std::string unable_lines(const std::map<std::string, std::uint64_t>& unable) {
   std::vector<std::pair<std::string, std::uint64_t>> reasons(unable.begin(), unable.end());
   std::ranges::stable_sort(reasons, std::ranges::greater(), &std::pair<std::string, std::uint64_t>::second);
@@ -113,7 +113,7 @@ Results merged(const std::vector<std::vector<Entry>>& journals) {
   }
   std::ranges::sort(conflicts);
   conflicts.erase(std::unique(conflicts.begin(), conflicts.end()), conflicts.end());
-  for (const SceneId& id : conflicts) all.erase(id);  // which of its verdicts is right, nobody knows
+  for (const SceneId& id : conflicts) all.erase(id);  // no verdict of a scene with two is taken
   Results out;
   out.conflicts = std::move(conflicts);
   Groups found, disputes;

@@ -1,4 +1,4 @@
-// The results of a campaign: all its journals as one.
+// Results of a campaign, merged from all its journals.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct Results {
   std::uint64_t scenes() const;
 };
 
-/// The union of the journals' entries: the order of journals, and what two of them share, makes no difference.
+/// Results of the union of the journals' entries: equal entries count once, and the order of journals does not matter.
 Results merged(const std::vector<std::vector<Entry>>& journals);
 
 /// Lines for people: scenes, a line for each group, the most frequent first.

@@ -9,13 +9,14 @@
 
 namespace plumbline::campaign {
 
-/// Who writes a scene. `ordinary` and `hard` share nothing: what one never draws, the other may. `plain` has
-/// the geometry of `hard`, for a renderer that draws opaque triangles alone.
+/// Generator of a scene. `ordinary` and `hard` share nothing: either may draw states that the other never draws.
+/// `plain` has the geometry of `hard`, for a renderer that draws opaque triangles alone.
 enum class Generator { ordinary, hard, plain };
 inline constexpr Generator kGenerators[] = {Generator::ordinary, Generator::hard, Generator::plain};
 std::string_view name_of(Generator generator);
 
-/// A scene: its generator and its seeds. One seed is a scene by itself; each further one changes a few of its choices.
+/// Name of a scene: its generator and its seeds. The first seed makes a scene; each further seed changes a few of its
+/// choices.
 struct SceneId {
   Generator generator = Generator::ordinary;
   std::vector<std::uint64_t> seeds;
@@ -25,7 +26,7 @@ struct SceneId {
 
 /// GENERATOR/SEED, or GENERATOR/SEED.SEED...: "hard/17", "hard/17.3".
 std::string to_string(const SceneId& id);
-/// Throws std::invalid_argument where the text is none of to_string().
+/// Inverse of to_string(). Throws std::invalid_argument for any other text.
 SceneId scene_id_of(std::string_view text);
 
 /// The scene's file (tests/scenes/scene.schema.json).

@@ -17,7 +17,7 @@ using Pointer = Json::json_pointer;
 
 constexpr std::string_view kKept[] = {"description", "mesh", "width", "height", "image", "positions"};
 
-// A scene that gets smaller by trials: a smaller one that shows the finding takes its place.
+// Scene that shrinks by trials: a smaller scene that shows the finding takes its place.
 class Shrinker {
  public:
   Shrinker(const std::string& scene, const Shows& shows, int trials)
@@ -93,7 +93,7 @@ class Shrinker {
     }
   }
 
-  // One triangle or one square; else fewer primitives, and no vertices that none uses.
+  // Replaces the mesh by one triangle or one square; else removes primitives, and vertices that no primitive uses.
   void smaller_mesh(const Pointer& place) {
     for (const char* simplest :
          {R"({"triangle": {"positions": [[-1, -1, 0], [1, -1, 0], [0, 1, 0]]}})", R"({"quad": {}})"}) {

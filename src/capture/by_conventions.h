@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-/// The scene that OpenGL's rules draw as the renderer draws `scene`. Holds a copy where the conventions alter the
-/// scene; else refers to `scene`, which must outlive it.
+/// Scene that OpenGL's rules draw as the renderer draws `scene`. Holds a copy where the conventions alter the scene;
+/// else refers to `scene`, which must outlive this object.
 ///
 /// `sample`: the picture is shifted by 1/2 - sample [pixels] (Pass::shift). `provoking_vertex` first: the corners of
 /// each triangle are rotated, so that the first becomes the last. `depth_planes` clamped: GL_DEPTH_CLAMP.

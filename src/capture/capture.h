@@ -24,8 +24,8 @@ struct Planes {
   Plane<double> depth;          ///< merge: the frame's depth as window z; n-bit codes as code / (2^n - 1)
 };
 
-/// A weight per primitive, of three 12-bit parts (so that sums of up to 4096 of each part stay below 2^24 and are exact
-/// in an RGBA32F target). Part 0 is the number's low 12 bits, part 1 the next 12, part 2 12 bits of a hash, which
+/// Weight of a primitive in three 12-bit parts: sums of up to 4096 weights stay below 2^24 in each part, and so are
+/// exact in an RGBA32F target. Part 0 is the number's low 12 bits, part 1 the next 12, part 2 12 bits of a hash, which
 /// distinguishes pairs of numbers with equal sums.
 constexpr std::uint32_t id_weight_part(std::uint32_t primitive, int part) {
   if (part == 0) return primitive & 0xfffu;
@@ -42,7 +42,7 @@ constexpr std::uint64_t id_weight(std::uint32_t primitive) {
 }
 
 struct Capture {
-  std::string renderer;  ///< its name
+  std::string renderer;  ///< name of the renderer
   std::string version;   ///< the renderer's (RendererInfo)
   int width = 0;
   int height = 0;
@@ -51,7 +51,8 @@ struct Capture {
   /// Frame colours of each pass of an antialiased scene. The capture of such a scene holds no records, and of planes
   /// only color and depth: the passes' own captures hold the rest.
   std::vector<Plane<glm::vec4>> samples;
-  /// Columns that a capture folder leaves out, for they follow from others: "window.front" (complete_records.h).
+  /// Columns that a capture folder leaves out because other columns determine them: "window.front"
+  /// (complete_records.h).
   std::set<std::string> derived;
   std::set<std::string> without_records;  ///< groups whose arrays a folder holds with 0 records, such as "window"
   bool depth_in_float = false;            ///< planes.depth was read from f32: complete_records() finds the codes

@@ -1,4 +1,5 @@
-// All that a capture holds, by stage, in one list: visitors of it write, read, copy, round, compare and hash captures.
+// List of a capture's groups and planes, by stage: visitors of the list write, read, copy, round, compare and hash
+// captures.
 #pragma once
 
 #include <algorithm>
@@ -89,14 +90,14 @@ struct CornerColumn {
   bool derivable = false;
   auto& at(auto& triangle, std::size_t corner) const { return triangle.v[corner].*member; }
 };
-/// The records are plain numbers.
+/// Column of a group whose records are plain numbers.
 struct ItselfColumn {
   static constexpr std::size_t kCorners = 0;
   static constexpr bool derivable = false;
   std::string_view name;
   auto& at(auto& record, std::size_t) const { return record; }
 };
-/// Each of three corners is plain numbers.
+/// Column of a group whose records are three corners of plain numbers.
 struct CornerItselfColumn {
   static constexpr std::size_t kCorners = 3;
   static constexpr bool derivable = false;
@@ -135,7 +136,7 @@ class Columns {
  public:
   explicit Columns(C... columns) : all_(columns...) {}
   static constexpr std::size_t kCount = sizeof...(C);
-  /// Calls visit(column) for each.
+  /// Calls visit(column) for each column.
   void each(auto visit) const {
     std::apply([&](const C&... column) { (visit(column), ...); }, all_);
   }
@@ -155,7 +156,7 @@ struct Handed {
   std::optional<Varying> varying;  ///< whose column the group is
 };
 
-/// Group with one record per owner, and its size. Every other group of these owners has the same size, or none.
+/// Group with one record per owner, and its number of records; any other group of these owners has as many, or none.
 struct Owners {
   std::string_view group;
   std::size_t count;

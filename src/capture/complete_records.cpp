@@ -75,7 +75,8 @@ void derive_normals(const DrawIndex& draws, Records<double>& r) {
   }
 }
 
-// Whether a corner is the vertex, up to four roundings of a renderer that keeps clip positions in another form.
+// Whether a corner is a copy of the vertex, up to four roundings by a renderer that stores clip positions in another
+// form.
 bool is_copy(const Vec4<double>& vertex, const Vec4<double>& corner) {
   const Vec4<double> apart = glm::abs(corner - vertex), size = glm::abs(vertex);
   const double error = 0x1p-22 * std::max({size.x, size.y, size.z, size.w});
@@ -187,8 +188,8 @@ constexpr double kCodeRoundings = 0x1p-50;
 
 // ---- order
 
-// Puts all groups of records that belong to triangles, or to fragments, in the order; but for coverage, by which they
-// are sorted.
+// Sorts all groups whose records belong to triangles, or to fragments, by the order; except coverage, from which the
+// order of fragments was found.
 struct Reordering {
   Per of;
   const Order& order;

@@ -10,12 +10,12 @@ namespace plumbline {
 /// Sorts polygons and window triangles by primitive (stable), and fragments by triangle, row and column. The drawing
 /// order is judged by the frame.
 ///
-/// Fills the columns named in `capture.derived`, and clears that set: vertex.n_eye from the capture's matrices and the
-/// mesh; clip.cut: false where p_clip is that of a vertex of the primitive, within 2^-22 of its largest coordinate
-/// (true where there are no vertices, and clip is not judged); window.snapped from p_win and the conventions,
-/// window.front from the area on their grid, unless that face is culled and the unsnapped area is of the other,
-/// window.corners and window.width from the mesh and the draw; texture.lod with NaN, for it follows from nothing that
-/// is recorded.
+/// Fills the columns named in `capture.derived`, and clears that set. vertex.n_eye: from the capture's matrices and the
+/// mesh. clip.cut: false where p_clip is that of a vertex of the primitive, within 2^-22 of its largest coordinate
+/// (true where there are no vertices, and clip is not judged). window.snapped: from p_win and the conventions.
+/// window.front: from the sign of the area on the conventions' grid; the other face where the draw culls this one and
+/// the area is 0 on the grid, or of the other sign unsnapped. window.corners, window.width: from the mesh and the draw.
+/// texture.lod: NaN, as no recorded column determines it.
 ///
 /// Rounds planes.depth to the nearest codes where it was read from floats, or is double's roundings (2^-50) from a
 /// code, and to float where the format is z32f. Varyings that a draw does not carry become 0.

@@ -108,7 +108,7 @@ void check_winners(const Capture& c, Lines& out) {
          "are background (-1) and differ in planes.color from the first such pixel", "planes.color", out);
 }
 
-// Lines and points have triangles, too.
+// Contradictions of a capture without window triangles, which lines and points would have, too.
 void check_window(const Capture& c, Lines& out) {
   if (!c.without_records.contains("window")) return;
   const auto drawn = [&](const char* array, std::ptrdiff_t pixels) {
@@ -130,8 +130,8 @@ void check_coverage(const Capture& c, Lines& out) {
          "coverage.y", "have another number of fragments than planes.count says", "planes.count", out);
 }
 
-// A plane of the winner's fragment holds that fragment's record, where the winner has one fragment at the pixel. Not for
-// fragments that contradict planes.count: their pixels are in doubt.
+// Contradictions of a plane of the winners: where the winner has one fragment at the pixel, the plane holds the
+// fragment's record. Not called where fragments contradict planes.count: their pixels are in doubt.
 template <class Record>
 void check_plane_of_winner(const Capture& c, const Plane<glm::vec4>& plane, const std::vector<Record>& records,
                            const char* array, const char* column, Lines& out) {

@@ -9,9 +9,9 @@
 
 namespace plumbline {
 
-/// Lines for people, each with the array, the numbers, and what they probably are: depths still in [-1,1], codes where
-/// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn, colours that
-/// are no winner's, a picture without triangles. Empty: none found.
+/// Lines for people, each with the array, its numbers and the probable cause: depths still in [-1,1], codes where
+/// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn, colours that are no
+/// winner's, a picture without triangles. Empty: none found.
 std::vector<std::string> contradictions(const Capture& capture);
 /// Contradictions of one stage. window: no triangle, but pixels drawn in planes.id, planes.count or planes.color.
 /// coverage: the fragments' number against planes.count. texture, shade: planes.texel and planes.shaded against the

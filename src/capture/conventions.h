@@ -1,5 +1,5 @@
-// Conventions of a renderer, which it declares or plumb learn finds. A difference that they explain is no mistake of a
-// stage.
+// Conventions of a renderer: declared by the renderer, or found by plumb learn. A difference that the conventions
+// explain is no mistake of a stage.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-/// Each default is OpenGL's, and plumbline's own.
+/// Conventions of one renderer. Each default is OpenGL's, and plumbline's own.
 struct Conventions {
   enum class Rows { from_bottom, from_top };
   enum class Rounding { nearest, down, up };
@@ -38,7 +38,7 @@ struct Conventions {
   glm::dvec2 sample{0.5};
   /// r of a polygon offset, which OpenGL leaves open (2.1, 3.5.5), in depths of 24 and of 16 bits [codes].
   glm::dvec2 offset_unit{2};
-  /// Window positions are snapped to 2^-bits pixel; 0 to 16, or kFloat: they are not.
+  /// Fraction bits of window positions, which are snapped to 2^-bits pixel: 0 to 16; kFloat: positions are not snapped.
   int subpixel_bits = 8;
   /// Fraction bits of texture filters' weights; or kFloat.
   int texture_bits = kFloat;
@@ -129,7 +129,7 @@ double on_grid(const Conventions& conventions, double p_win);
 
 /// A convention for people.
 struct ConventionWords {
-  std::string_view name;     ///< its key in files
+  std::string_view name;     ///< key in conventions.json
   std::string_view meaning;  ///< what it says
   bool is_free;              ///< OpenGL leaves the value open; numbers have limits (mistaken())
 };
@@ -166,7 +166,7 @@ void each_choice(Visit visit) {
         &C::half_way_level);
 }
 
-/// Likewise for each that is a number of bits, or "float".
+/// Calls visit(words, member) for each convention that is a number of bits, or "float".
 template <class Visit>
 void each_number_of_bits(Visit visit) {
   using C = Conventions;
@@ -182,9 +182,9 @@ inline constexpr ConventionWords kOffsetWords{"offset_unit", "a polygon offset's
 /// swap in a picture whose rows count from the top.)
 bool settles_ties(const Conventions& conventions);
 
-/// "float", or the number.
+/// Text of a number of bits: "float", or the number.
 std::string bits_text(int bits);
-/// "0.5, 0.5", to 1/1024 pixel.
+/// Text of a sample position, such as "0.5, 0.5", of four significant digits.
 std::string sample_text(const glm::dvec2& sample);
 
 /// Conventions that are mistakes, a line each: "convention rows: from_top, expected from_bottom (the order of the

@@ -17,8 +17,8 @@ Outcomes outcomes(CompareFunc func, double lo, double hi, double reference);
 /// float.
 double depth_in_format(DepthFormat format, double z_win);
 
-/// Whether every depth of the format passes over the one held: less_equal over 1, greater_equal over 0, where the
-/// format has codes, to which depths are clamped.
+/// Whether every depth of the format passes against the held depth: less_equal against 1 and greater_equal against 0,
+/// in formats with codes, to whose range depths are clamped.
 bool passes_all_over(DepthFunc func, DepthFormat format, double held);
 
 /// Outcomes of the alpha test for an alpha in [lo, hi] (OpenGL 2.1 spec 4.1.4, 4.5 compatibility 17.3.4): where the

@@ -1,4 +1,4 @@
-// How a renderer's numbers may differ from the exact ones.
+// Profile of a renderer: how its numbers may differ from exact numbers.
 #pragma once
 
 #include <array>

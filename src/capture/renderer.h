@@ -26,7 +26,7 @@ enum class WantedPlanes {
   none      ///< records and legal answers are enough
 };
 
-/// What to capture. Records and the legal answers on demand.
+/// Request of a capture: the records, planes and legal answers that the caller needs.
 struct Request {
   StageSet records = {};  ///< stages whose records are wanted
   bool legal = false;     ///< an oracle's legal answers; of `pixels` at least
@@ -55,7 +55,7 @@ struct RendererInfo {
   std::array<Ability, kStageNames.size()> stages;
   bool legal = false;  ///< capture() hands legal answers out
   Profile profile = Profile::foreign;
-  Conventions conventions = {};  ///< that it draws by
+  Conventions conventions = {};  ///< conventions that the renderer draws by
   /// Names of the code paths that draw pictures alone (WantedPlanes::picture), the default path last. Each must draw
   /// the bits of the recorded frame. Empty: the recorded path draws pictures, too.
   std::vector<std::string> painters = {};
@@ -83,7 +83,7 @@ class Renderer {
  public:
   virtual ~Renderer() = default;
 
-  /// Abilities and conventions. Of a program they are those of its last capture(), else constant.
+  /// Abilities and conventions. A program's are those of its last capture(), other renderers' are constant.
   virtual RendererInfo info() const = 0;
 
   /// Draws the scene. Hands out every plane it is able to show, and of the records those that the request names and
@@ -107,7 +107,7 @@ void require_samples(const Scene& scene, const std::vector<Plane<glm::vec4>>& sa
 std::size_t plane_bytes(const Scene& scene);
 /// Memory of one fragment's records of these stages [bytes].
 std::size_t fragment_bytes(const Scene& scene, StageSet stages);
-/// Throws OverBudget, naming the scene, what it would take and the budget.
+/// Throws OverBudget where `bytes` exceeds `budget` [bytes], naming the scene and both numbers.
 void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget);
 
 }  // namespace plumbline

@@ -10,10 +10,10 @@ namespace plumbline {
 /// Throws std::invalid_argument that names the records of `in` which the stage reads and which do not fit the scene.
 void require_fitting(const Scene& scene, Stage stage, const Capture& in);
 
-/// Varyings that a stage reads, or hands on as well.
+/// Varyings of a stage: those that it reads; those that it reads or hands on.
 enum class VaryingsOf { inputs, inputs_and_output };
-/// The first group of a varying, such as "varyings.normal.fragments", of these that holds no record, though the
-/// vertices, corners or fragments that it lies beside are there. Empty: none is lacking.
+/// Name of the first group of these varyings, such as "varyings.normal.fragments", that holds no record though the
+/// vertices, corners or fragments beside which it lies have records. Empty: none.
 std::string lacking_varying(const Scene& scene, Stage stage, VaryingsOf of, const Capture& in);
 
 }  // namespace plumbline

@@ -7,7 +7,7 @@
 
 namespace plumbline {
 
-/// NaNs of equal bits are the same, 0 and -0 are not.
+/// Whether both planes have one size and equal bits: NaNs of equal bits are the same, 0 and -0 are not.
 template <class T>
 bool have_same_bits(const Plane<T>& a, const Plane<T>& b) {
   const bool same_size = a.width() == b.width() && a.height() == b.height();

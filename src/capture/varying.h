@@ -31,7 +31,8 @@ inline constexpr std::array<Varying, kVaryings> kAllVaryings = {Varying::seconda
 constexpr std::size_t index_of(Varying v) { return static_cast<std::size_t>(v); }
 constexpr std::string_view name_of(Varying v) { return kVaryingNames[index_of(v)]; }
 
-/// Whether it is a colour that lighting makes: flat shading takes the provoking vertex' for every corner.
+/// Whether the varying is a colour that lighting makes: under flat shading all corners have the provoking vertex'
+/// value.
 constexpr bool is_lit(Varying v) { return v <= Varying::back_secondary; }
 /// Whether the varying is of back faces. It ends at the window stage, which chooses each triangle's colours by facing.
 constexpr bool is_back(Varying v) { return v == Varying::back_color || v == Varying::back_secondary; }
@@ -42,9 +43,9 @@ constexpr bool is_secondary(Varying v) { return v == Varying::secondary || v == 
 bool carries(const Scene& scene, const Draw& draw, Varying v);
 /// Varyings that any draw of the scene carries, in the enum's order.
 std::vector<Varying> carried(const Scene& scene);
-/// The same, into `out`, whose memory is reused.
+/// Sets `out` to carried(scene); the memory of `out` is reused.
 void carried(const Scene& scene, std::vector<Varying>& out);
-/// Whether a fragment's colour is the interpolated one as it is.
+/// Whether the draw's fragments have the interpolated colour, unchanged.
 bool is_plain(const Scene& scene, const Draw& draw);
 /// Whether is_plain() holds for all draws.
 bool is_plain(const Scene& scene);

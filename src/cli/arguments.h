@@ -1,4 +1,5 @@
-// The command line. CLI11, which takes long to compile, is known here and in options/argument_kinds.h alone.
+// Parser of the command line. CLI11, which takes long to compile, is used in arguments.cpp and options/argument_kinds
+// alone.
 #pragma once
 
 #include <functional>

@@ -246,7 +246,7 @@ std::vector<campaign::SceneId> kept_of(std::size_t round, const fs::path& folder
   return out;
 }
 
-// The scenes that were asked for.
+// Scenes of the options' seeds, generator and round.
 std::vector<campaign::SceneId> scenes_of(const CampaignOptions& o, const std::string& terms) {
   const Range range = range_of(o.seeds);
   std::vector<campaign::SceneId> out = scenes_of(
@@ -291,14 +291,14 @@ void require_terms(const fs::path& journals, const std::string& terms) {
                                           file.string(), terms, its.substr(0, its.find_last_not_of('\n') + 1)));
 }
 
-// Before the work: the findings can be written at its end.
+// Checks, before the work, that results.json and the findings can be written at its end.
 void require_results(const fs::path& folder) {
   require_writable_file(folder / "results.json");
   const fs::path findings = folder / "findings";
   if (fs::exists(findings) && !fs::is_directory(findings)) throw OutputError(findings, "it is no folder");
 }
 
-// Scenes that no journal of the folder holds, into the range's own.
+// Judges the scenes that no journal of the folder holds, into the journal of the options' range.
 void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::path& journals,
                  const std::string& terms) {
   const Range range = range_of(o.seeds);
@@ -319,7 +319,7 @@ void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::pa
   judge_scenes(scenes, rules, journal);
 }
 
-// Where the images that ordinary scenes name are: beside an installed program, or in the project that it was built in.
+// Folders of the images that ordinary scenes name: beside an installed program, or in the project that it was built in.
 std::vector<std::string> with_suite_images(std::vector<std::string> assets) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
   for (const char* from_program : {"../share/plumbline/scenes/texture", "../../tests/scenes/texture"}) {

@@ -56,7 +56,8 @@ bool is_whole(const CheckOptions& o, std::span<const check::SceneVerdict> verdic
          std::ranges::any_of(o.scenes, [](const std::string& path) { return std::filesystem::is_directory(path); });
 }
 
-// Each scene leaves files of its name there.
+// Checks the folders of --rows and --failures, in which each scene leaves files of its name: no two scenes have one
+// name.
 void require_folders(const CheckOptions& o, std::span<const Scene> scenes) {
   require_folder({"--rows", o.rows});
   require_folder({"--failures", o.failures});
@@ -73,7 +74,7 @@ void require_folders(const CheckOptions& o, std::span<const Scene> scenes) {
   }
 }
 
-// Every scene that earns points is run.
+// Throws where a scene of the rubric is not among the scenes that are run.
 void require_scenes(const report::Rubric& rubric, std::span<const Scene> scenes, const std::string& file) {
   for (const report::SceneRubric& of : rubric.scenes) {
     if (std::ranges::find(scenes, of.scene, &Scene::name) != scenes.end()) continue;

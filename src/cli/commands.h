@@ -17,10 +17,10 @@ namespace plumbline::cli {
 /// writable before the work.
 enum Exit { kHolds = 0, kDiffers = 1, kBadInput = 2 };
 
-/// The most scenes that are judged at a time.
+/// Largest number of scenes that are judged at a time.
 inline constexpr int kMostJobs = 256;
 
-/// Scenes against references, stage by stage. Paths may be empty: not wanted.
+/// Options of plumb check: scenes against references, stage by stage. An empty path is not wanted.
 struct CheckOptions {
   std::vector<std::string> scenes;  ///< files, and folders of them
   std::vector<std::string> against = default_references();
@@ -32,7 +32,7 @@ struct CheckOptions {
   std::string shard;           ///< I/N: every Nth scene, from number I on
   std::string golden;          ///< the folder of goldens, whose rows stand beside the references'; or empty
   std::string fault;           ///< a fault to put into our renderer, or empty
-  ProgramArgument candidate;   ///< another renderer, in ours' place
+  ProgramArgument candidate;   ///< another renderer, judged in place of ours
   std::string submissions;     ///< a folder: one candidate for each folder in it; or empty
   std::string rubric, grades;  ///< points by scene and stage (report/runs/grade.h), and where they go; or empty
   int jobs = 0;                ///< scenes judged at a time; 0: as many as there are processors
@@ -67,7 +67,7 @@ struct DiagnoseOptions {
   std::string fault;           ///< or empty
   std::string folder;          ///< a capture of another renderer, or empty
   ProgramArgument candidate;   ///< another renderer
-  std::string pixel;           ///< X,Y: its history as well; or empty
+  std::string pixel;           ///< X,Y: this pixel's history is printed, too; or empty
   std::uint64_t most_fragments = check::kMostFragments;
   WorkerLimits limits;  ///< of the process that diagnoses
   SceneArguments scene_arguments;
@@ -76,7 +76,7 @@ int diagnose(const DiagnoseOptions& options);
 /// Diagnosis of a picture alone: the known faults whose pictures are nearest to it.
 int diagnose_picture(const DiagnoseOptions& options);
 
-/// A scene to a picture.
+/// Options of plumb render: a scene to a picture.
 struct RenderOptions {
   std::string scene;
   std::string output;  ///< .png, .tga, .ppm or .exr
@@ -86,7 +86,7 @@ struct RenderOptions {
 };
 int render(const RenderOptions& options);
 
-/// What a renderer hands out at every stage, to a folder.
+/// Options of plumb capture: a renderer's records and planes of every stage, to a folder.
 struct CaptureOptions {
   std::string scene, folder;
   std::string check;  ///< a capture folder to check for contradictions, instead of `scene` and `folder`; or empty
@@ -112,12 +112,12 @@ struct LearnOptions {
 /// Ends 1 where a convention is a mistake, or the probes contradict each other.
 int learn(const LearnOptions& options);
 
-/// Two images or two captures, as they are stored.
+/// Options of plumb compare: two images or two captures, compared as they are stored.
 struct CompareOptions {
   std::string a, b;             ///< two files or two folders
   std::string tolerance = "0";  ///< a number, or a fraction such as 1/255
   std::string output;           ///< of images: an amplified difference picture, or empty
-  std::string amplify;          ///< by what; empty: the largest difference is white
+  std::string amplify;          ///< factor of differences; empty: the largest one is white
   std::string json;
   bool allow_missing = false;  ///< what one capture alone holds is no failure
 };
@@ -139,7 +139,7 @@ int golden_check(const GoldenOptions& options);
 /// run that blesses is no run that passes.
 int golden_update(const GoldenOptions& options);
 
-/// Names that other commands take: stages, renderers, faults, scenes.
+/// Options of plumb list: names of stages, renderers, faults and scenes, which other commands take.
 struct ListOptions {
   std::string what = "all";
   std::vector<std::string> folders;  ///< of scenes
@@ -163,7 +163,7 @@ struct MergeOptions {
 };
 int report_merge(const MergeOptions& options);
 
-/// What each section of the course notes teaches, and where it is done and shown here.
+/// Options of plumb notes: what each section of the course notes teaches, and where the project does and shows it.
 struct NotesOptions {
   std::string number;  ///< of one note, or empty: of all
 };

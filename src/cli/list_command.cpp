@@ -1,4 +1,4 @@
-// plumb list: what there is.
+// plumb list: stages, renderers, faults and scenes.
 #include <fstream>
 #include <memory>
 #include <stdexcept>

@@ -70,7 +70,7 @@ constexpr auto kAmbientPerLight = [](Scene& scene, Draw&) {
   scene.light_model.ambient *= 1.0f + static_cast<float>(scene.lights.size());
 };
 
-// Eye space is the world.
+// Light in world space: the camera is at the origin and looks down -z.
 constexpr auto kWorldSpace = [](Scene& scene, Draw&) {
   scene.dialect = Dialect::gl;
   scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
@@ -118,7 +118,7 @@ pipeline::Shaded shaded_in_other_light(const pipeline::Surface& surface, bool fr
   return {pipeline::shade<float>(other, front, a)};
 }
 
-// The sum of colours left out.
+// Shading without the colour sum.
 pipeline::Shaded no_color_sum(const pipeline::Surface& surface, bool front,
                               const pipeline::SurfaceAttributes<float>& a) {
   pipeline::SurfaceAttributes<float> primary = a;

@@ -15,7 +15,7 @@ namespace {
 
 // 10. Visibility.
 
-// The depth test by another function for some.
+// Depth test by the function other(func), which is another for some `func`.
 template <auto other>
 bool depth_passes_by(DepthFunc func, float incoming, float stored) {
   return pipeline::compares<float>(other(func), incoming, stored);
@@ -64,7 +64,7 @@ constexpr auto kNoWrap = [](StencilFace& face) {
 
 // 11. Merge.
 
-// The draw's merge state, changed.
+// Merge state that `change` altered.
 template <auto change>
 Merge merge_under(const Merge& of_draw) {
   Merge wrong = of_draw;
@@ -146,7 +146,7 @@ float truncated_mean(Values values, Samples samples, float scale) {
   return static_cast<float>(std::floor(weighted_sum(values, samples) / weights(samples)));
 }
 
-// The second's and the third's weights change places: neighbours in the table.
+// Weighted mean with the second and third samples' weights exchanged: neighbours in the table.
 float mean_of_swapped(Values values, Samples samples, float scale) {
   std::vector<PixelSample> wrong(samples.begin(), samples.end());
   if (wrong.size() > 2) std::swap(wrong[1].weight, wrong[2].weight);

@@ -19,7 +19,7 @@ using pipeline::Polygon;
 using pipeline::ShadedTriangle;
 using Triangles = std::vector<ShadedTriangle>;
 
-// The stage at other planes; where depths are clamped there are none to get wrong.
+// Clipping at other planes; with depth clamp, which has no near and far plane to get wrong, the right clipping.
 template <auto planes>
 void cut_at(const DrawInput& input, Polygon& polygon) {
   if (input.depth_clamp) return pipeline::clip(input, polygon);
@@ -49,7 +49,7 @@ void cut_far_off(const DrawInput& input, Polygon& polygon) {
   pipeline::clip_at(std::span(planes).first(input.depth_clamp ? 4 : 6), polygon);
 }
 
-// The stage with other positions.
+// Clipping of a polygon whose positions `change` altered.
 template <auto change>
 void clip_moved(const DrawInput& input, Polygon& polygon) {
   for (ClipVertex& v : polygon.corners) change(v.p_clip);
@@ -59,14 +59,14 @@ void clip_moved(const DrawInput& input, Polygon& polygon) {
 constexpr auto kNearFlattened = [](Vec4<float>& p) { p.z = std::max(p.z, -p.w); };
 constexpr auto kWSignLost = [](Vec4<float>& p) { p = p.w < 0 ? -p : p; };
 
-// The stage, what it makes changed.
+// Clipping, followed by `change` of the clipped polygon.
 template <auto change>
 void clip_changed(const DrawInput& input, Polygon& polygon) {
   pipeline::clip(input, polygon);
   change(polygon);
 }
 
-// A cut's corner has the attributes of the one before it.
+// Each corner made by a cut has the attributes of the polygon's corner before it.
 constexpr auto kAttributesNotCut = [](Polygon& polygon) {
   const Attributes* before = nullptr;
   for (const ClipVertex& c : polygon.corners) {
@@ -88,7 +88,7 @@ constexpr auto kReversed = [](Polygon& polygon) {
   if (polygon.corners.size() > 3) std::reverse(polygon.corners.begin(), polygon.corners.end());
 };
 
-// x / w of a corner behind the eye has the other sign.
+// Polygons outside of one side by x / w or y / w are dropped: behind the eye these quotients have the other sign.
 void left_out_after_division(const DrawInput& input, Polygon& polygon) {
   for (int i = 0; i < 2; ++i) {
     std::size_t right = 0, left = 0;
@@ -212,7 +212,7 @@ void diagonals_drawn(const DrawInput& input, const Polygon& polygon, Triangles& 
   }
 }
 
-// An edge begins at the corner that it ends in, but the first.
+// Each edge of an outline but the first begins at the corner that it ends in.
 void edges_of_one_corner(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   const std::size_t first = out.size();
   pipeline::to_window(input, polygon, out);

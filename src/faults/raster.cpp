@@ -18,7 +18,7 @@ bool top_edges_for_bottom(std::int64_t step_x, std::int64_t step_y) {
   return step_x > 0 || (step_x == 0 && step_y < 0);
 }
 
-// The stage, of triangles alone.
+// Coverage of triangles by pixels(); lines and points are left right.
 template <auto pixels>
 PixelList triangles_by(const Triangle& t, const PixelBounds& box) {
   return t.corners == 3 ? pixels(t, box) : pipeline::covered_pixels(t, box);
@@ -55,7 +55,7 @@ PixelList box_begun_late_by(const Triangle& t, const PixelBounds& box) {
   return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0 + columns, b.y0 + rows, b.x1, b.y1}, box);
 }
 
-// The stage without triangles of det < 1, twice the area in pixels (ssloy/tinyrenderer, 87bc715, our_gl.cpp).
+// Coverage without triangles of det < 1, twice the area in pixels (ssloy/tinyrenderer, 87bc715, our_gl.cpp).
 PixelList small_dropped(const Triangle& t, const PixelBounds& box) {
   const bool is_small = std::abs(snapped_area(t)) < std::int64_t{kSubpixel} * kSubpixel;
   return is_small ? PixelList{} : pipeline::covered_pixels(t, box);
@@ -65,7 +65,7 @@ PixelBounds scissor_with_its_far_sides(const Scissor& box, const PixelBounds& fr
   return pipeline::scissored({box.x, box.y, box.width + 1, box.height + 1}, frame);
 }
 
-// The stage, of lines and points alone.
+// Coverage of lines and points by pixels(); triangles are left right.
 template <auto pixels>
 PixelList lines_by(const Triangle& t, const PixelBounds& box) {
   return t.corners == 3 ? pipeline::covered_pixels(t, box) : pixels(t, box);
@@ -225,7 +225,7 @@ Color<float> nearness_reversed(const Setup& s, const TriangleAttributes& of, con
   return pipeline::mean<float>(of, pipeline::weights<float>(wrong, pipeline::from_anchor<float>(s.planes, p)));
 }
 
-// Each channel of the stage's changed.
+// Attributes, each channel of them changed.
 template <auto change>
 Color<float> each_channel(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
   const Color<float> c = pipeline::mean<float>(of, weights_of(s, p));

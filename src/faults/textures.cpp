@@ -36,7 +36,7 @@ FilteredTexel<float> scaled_by_size_less_one(const TextureSetup& t, const TexCoo
   return pipeline::texture<float>(t, {scaled(at.s, t.width), scaled(at.t, t.height)}, g);
 }
 
-// The remainder of |s|.
+// Repeat wraps |s| and |t|.
 FilteredTexel<float> negative_mirrored(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   const auto repeated = [](Wrap wrap, float v) { return wrap == Wrap::repeat ? std::abs(v) : v; };
   return pipeline::texture<float>(t, {repeated(t.sampler.wrap_s, at.s), repeated(t.sampler.wrap_t, at.t)}, g);
@@ -76,7 +76,7 @@ FilteredTexel<float> levels_by_row(const TextureSetup& t, const TexCoords<float>
   return pipeline::texture<float>(t, at, {g.ds_dx, g.dt_dx, g.ds_dx, g.dt_dx, g.q});
 }
 
-// log2 of rho squared.
+// Level of detail log2(rho^2) in place of log2(rho).
 FilteredTexel<float> levels_doubled(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   TextureSetup unlimited = t;
   unlimited.sampler.lod_bias = 0;

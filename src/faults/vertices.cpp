@@ -45,7 +45,7 @@ void wrong_view(Stages& stages) {
   put<&Stages::lights, lights_of_wrong_view>(stages);
 }
 
-// The stage's matrices changed.
+// Stage matrices, its result then changed.
 template <auto change>
 Matrices<float> matrices_changed(const Scene& scene, const Draw& draw) {
   Matrices<float> m = pipeline::matrices(scene, draw);
@@ -83,7 +83,7 @@ constexpr auto kAspectOf4To3 = [](const Scene& scene, Matrices<float>& m) {
   if (std::holds_alternative<Perspective>(scene.projection)) m.projection[0][0] = 0.75f * m.projection[1][1];
 };
 
-// The two change places in (n + f) / (n - f) and 2 n f / (n - f), and in an orthographic projection's terms: a sign.
+// near and far exchanged in (n + f) / (n - f) and 2 n f / (n - f), and in an orthographic projection's terms: a sign.
 constexpr auto kNearFarSwapped = [](const Scene&, Matrices<float>& m) {
   for (int column = 0; column < 4; ++column) m.projection[column].z = -m.projection[column].z;
 };
@@ -115,7 +115,7 @@ constexpr auto kViewportLessOneFromTop = [](const Scene&, Matrices<float>& m) {
   m.win_scale.y -= 0.5f, m.win_translate.y += 0.5f;
 };
 
-// The stage under a matrix for normals of its own.
+// Stage vertex under another normal matrix.
 template <auto change>
 void normals_by_other(const Matrices<float>& matrices, Normals normals, const Mesh& mesh,
                       std::vector<Vertex<float>>& out) {
@@ -132,7 +132,7 @@ void normals_not_renormalised(const Matrices<float>& matrices, Normals, const Me
   pipeline::transform(matrices, Normals::as_they_are, mesh, out);
 }
 
-// The stage's vertices changed.
+// Stage vertex, each of its vertices then changed.
 template <auto change>
 void vertices_changed(const Matrices<float>& matrices, Normals normals, const Mesh& mesh,
                       std::vector<Vertex<float>>& out) {
@@ -141,7 +141,7 @@ void vertices_changed(const Matrices<float>& matrices, Normals normals, const Me
   for (std::size_t i = first; i < out.size(); ++i) change(matrices, mesh.positions[i - first], out[i]);
 }
 
-// A normal is taken for a place.
+// The model-view matrix' translation is added to normals, as to positions.
 constexpr auto kNormalsTranslated = [](const Matrices<float>& m, const glm::vec3&, Vertex<float>& v) {
   const Vec3<float> n = v.n_eye + Vec3<float>(m.model_view[3]);
   if (glm::length(n) > 0) v.n_eye = glm::normalize(n);

@@ -15,7 +15,7 @@ namespace plumbline::image_order {
 struct Ray {
   glm::dvec3 origin;
   glm::dvec3 column;   ///< the column's plane: dot(column, p - origin) = 0; greater towards greater pixel x
-  glm::dvec3 row;      ///< the row's plane likewise; greater towards greater pixel y (in gzrender: downwards)
+  glm::dvec3 row;      ///< the row's plane: dot(row, p - origin) = 0; greater towards greater y (gzrender: downwards)
   glm::dvec3 forward;  ///< unit length: dot(forward, p - origin) is how far p is along the view
 };
 

@@ -43,10 +43,11 @@ template <class W>
   const auto q1_little = little(q1), q2_little = little(q2), sum_little = little(sum);
   return q1_little & q2_little & sum_little & (least > W(0x1p-60)) & (most < W(0x1p60));
 }
-/// `colors_alone`: the draw carries no varying. Lines and points are never in blocks.
+/// Setup of a window triangle, line or point. `colors_alone`: the draw carries no varying. in_blocks: never set for
+/// lines and points.
 PerspectiveSetup perspective_setup(const WindowTriangle& triangle, const CornerPlanes<double>& planes,
                                    bool colors_alone);
-/// `may_go_in_blocks`: in_blocks is set where changes_little() holds.
+/// Setup from the corners' 1/w. `may_go_in_blocks`: in_blocks is set where changes_little() holds, else never.
 PerspectiveSetup perspective_setup(const std::array<float, 3>& inv_w, const CornerPlanes<double>& planes,
                                    bool may_go_in_blocks);
 

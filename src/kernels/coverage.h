@@ -53,10 +53,11 @@ inline PixelBounds intersection(const PixelBounds& a, const PixelBounds& b) {
 /// Calls visit(pixel) for each pixel of a line (line_diamond.h), in the order of its steps, or of a point, row by row,
 /// that lies in the box of `size` pixels from pixel `origin` on.
 ///
-/// A wide line is moved down its minor axis by (width - 1) / 2; each of its pixels is the lowest of `width` in a column
-/// (y-major: the first of a row; OpenGL 2.1, section 3.4.2). A wide point is a square of so many pixels, about the
-/// centre of the pixel that it lies in, or, of an even size, about the nearest corner of pixels (section 3.3): either
-/// way its first column is floor(x - (width - 1) / 2), and its first row likewise.
+/// A wide line is moved down its minor axis by (width - 1) / 2; each of its pixels is the lowest of `width` pixels in a
+/// column (y-major: the leftmost in a row; OpenGL 2.1, section 3.4.2). A wide point is a square of width x width
+/// pixels, about the centre of the pixel that holds the point or, for an even width, about the nearest corner of pixels
+/// (section 3.3). In both cases the first column is floor(x - (width - 1) / 2), the first row floor(y - (width - 1) /
+/// 2).
 void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin, glm::ivec2 size, auto visit) {
   const glm::i64vec2 from = std::int64_t{kSubpixel} * glm::i64vec2(origin);
   const glm::i64vec2 a = glm::i64vec2(line_or_point.v[0].snapped) - from;

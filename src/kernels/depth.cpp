@@ -14,7 +14,7 @@ PlaneCorners<double> corners_of(const WindowTriangle& t) {
                               {v[0].snapped.y, v[1].snapped.y, v[2].snapped.y}, t.front ? 1.0 : -1.0);
 }
 
-// Polygon offset [window z]; 0 for lines and points.
+// Polygon offset of a window triangle, line or point [window z]; 0 for lines and points.
 double offset_of(const WindowTriangle& triangle, const DepthState& state) {
   if (triangle.corners < 3 || state.offset == PolygonOffset{}) return 0;
   const double z0 = triangle.v[0].p_win.z, z1 = triangle.v[1].p_win.z, z2 = triangle.v[2].p_win.z;

@@ -1,9 +1,9 @@
 // Stage 6: the depth of each fragment.
 //
 // Depth is affine in the window, and so are barycentric coordinates, over w or not: planes in double serve depth here
-// and attributes in stage 7. They go through the *unsnapped* positions: the snapped ones only decide coverage (through
-// them, the colours of tiny triangles would move visibly). Double, because for a sliver in float even the third bit of
-// a depth may be wrong.
+// and attributes in stage 7. Planes go through the *unsnapped* positions; snapped positions decide coverage alone
+// (planes through them would visibly move the colours of tiny triangles). In float, even the third bit of a sliver's
+// depth may be wrong: hence double.
 #pragma once
 
 #include "kernels/lanes.h"
@@ -100,7 +100,7 @@ template <class W>
 
 /// Point that planes are evaluated from.
 struct Anchor {
-  double x0, y0;  ///< window
+  double x0, y0;  ///< window position [pixels]
 };
 /// Planes of a window triangle, line or point, and their anchor.
 struct BarycentricPlanes : CornerPlanes<double>, Anchor {};
@@ -119,13 +119,13 @@ template <class R>
   return {p.x_win - anchor.x0, p.y_win - anchor.y0};
 }
 
-/// A draw's state of stage 6.
+/// Per-draw state of stage 6.
 struct DepthState {
   DepthFormat format;
   double low = 0, high = 1;  ///< clamp range [window z]
   PolygonOffset offset = {};
 };
-/// Clamp range: under depth clamp the draw's depth range (GL_ARB_depth_clamp), else [0,1].
+/// State of stage 6 of the draw. Clamp range: with depth clamp the draw's depth range (GL_ARB_depth_clamp), else [0,1].
 DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp);
 
 /// Window depths of a triangle's corners, polygon offset included: corner 0's, and the others' differences from it.
@@ -134,7 +134,7 @@ struct DepthSetup {
   double scale;              ///< the largest code of the depth format (scene.h, depth_scale); 0: float
   double low = 0, high = 1;  ///< as DepthState
 };
-/// The polygon offset moves the whole plane; lines and points have none.
+/// Depths of a primitive's corners. A polygon offset moves a triangle's whole plane; lines and points have no offset.
 DepthSetup depth_setup(const WindowTriangle& triangle, const DepthState& state);
 /// Plane of depth, in codes of the depth format; in window z where the format is float.
 struct DepthPlane {

@@ -1,7 +1,7 @@
 // Lane operations: the primitives of the kernels, so that one source serves every width.
 //
-// A kernel is a template over its number type R. For R = float, below, each operation is the plain one on one value:
-// this is the definition. A SIMD type needs its own Lanes and the same operations, each lane doing the same.
+// A kernel is a template over its number type R. R = float, below, is the definition: each operation is the scalar one.
+// A SIMD type has its own Lanes and all these operations; each lane yields float's result.
 #pragma once
 
 #include <bit>
@@ -178,9 +178,10 @@ inline void store_fours(const Vec4<float>& values, float* const (&to)[1]) {
   for (int i = 0; i < 4; ++i) to[0][i] = values[i];
 }
 
-/// Vector row [0, 3] of the four that hold the lanes' vec4 at at(lane), widened to double. Float: component row. SIMD:
-/// all components of some of the lanes, which fours_of_rows() transposes. row_of_shares: the lanes' weights k in that
-/// arrangement. The first argument selects the overload by its type.
+/// row_of_fours(): vector `row` [0, 3] of the four vectors of doubles that hold the lanes' vec4 at at(lane). Float:
+/// component `row`. SIMD: all components of some of the lanes; fours_of_rows() transposes the four vectors.
+/// row_of_shares(): the lanes' weights k, in the lane order of row_of_fours(). The first argument selects the overload
+/// by its type.
 inline double row_of_fours(float, int row, auto at) { return to_wide(at(0)[row]); }
 inline double row_of_shares(float, int, const double (&k)[1]) { return k[0]; }
 inline Vec4<float> fours_of_rows(const double (&rows)[4]) { return {rows[0], rows[1], rows[2], rows[3]}; }

@@ -1,4 +1,4 @@
-// The light equation at one point (OpenGL 2.1 spec, section 2.14.1), and note 000's in its place.
+// Light equation at one point: OpenGL's (2.1 spec, section 2.14.1) or note 000's, as the scene's light model has it.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct Illumination {
   LightModel model;
   FixedVector<EyeLight, 8> lights;
 };
-/// `lights`: one for each of the scene's.
+/// Light model of the scene, and its lights ready for the equation. `lights`: stage 0's, one per light of the scene.
 Illumination illumination(const Scene& scene, Lights lights);
 
 /// A material, and which of its colours the vertex colour replaces (lit_material(), scene.h).
@@ -103,7 +103,7 @@ Cosines<R> cosines(const LightModel& model, const EyeLight& light, Vec3<R> n, co
 }
 
 /// Factor of a point light's attenuation and cone; 0 outside the cone. `from_point`: vector from the point to the
-/// light; `to_light`: the same, unit.
+/// light; `to_light`: unit vector of that direction.
 template <class R>
 R reach(const EyeLight& light, const Vec3<R>& from_point, const Vec3<R>& to_light) {
   R share(1);
@@ -164,7 +164,7 @@ struct FragmentLight {
   ColoredMaterial material[2][2];        ///< [LitPart::back][LitPart::secondary]
   Reflectance<float> reflectance[2][2];  ///< of material[][].own
 };
-/// `lights`: stage 0's.
+/// Input of the light equation at the draw's fragments. `lights`: stage 0's.
 FragmentLight fragment_light(const Scene& scene, const Draw& draw, Lights lights);
 
 /// Light equation at a fragment. `n`: the interpolated normal, brought to unit length here, and turned over for a back

@@ -1,5 +1,5 @@
-// Mathematics over the lane type. Colours and vectors are glm's; functions that glm has for plain floats only are
-// written here for lanes. So are log2, exp2 and power: a C library does not promise the same bits on every machine.
+// Mathematics over the lane type. Colours and vectors are glm's. Written here: functions that glm has for plain floats
+// only, and log2, exp2 and power, for which C libraries do not promise equal bits on every machine.
 #pragma once
 
 #include "kernels/lanes.h"
@@ -43,7 +43,7 @@ Vec3<R> unit(const Vec3<R>& v) {
   return v / length(v);
 }
 
-/// m p, summed left to right: of a point (w = 1), and of a direction.
+/// Product of a matrix and a point (w = 1), or a direction; its terms are summed from left to right.
 template <class R>
 [[gnu::always_inline]] inline Vec4<R> product(const Mat4<float>& m, const Vec3<R>& p) {
   return ((Vec4<R>(m[0]) * p.x + Vec4<R>(m[1]) * p.y) + Vec4<R>(m[2]) * p.z) + Vec4<R>(m[3]);

@@ -89,10 +89,10 @@ template <class R>
           shifted_left<24>(code(source.a, shifted_right<24>(held) & most)));
 }
 
-/// `source`, as stage 9 makes it, blended with `stored`; the latter and the result are in the frame's format, as
-/// merge() makes it (OpenGL 2.1 spec 4.1.8). In double, for the errors of many layers add up: a product of a colour and
-/// a code is exact there, and the sum is rounded to codes as the real number would be, but for sums within some 2^-45
-/// codes of a half.
+/// Blended colour (OpenGL 2.1 spec 4.1.8). `source`: as stage 9 makes it; `stored` and the result: in the frame's
+/// format, as merge() makes it. In double, as the errors of many layers add up: a product of a colour and a code is
+/// exact, and the sum is rounded to codes as the real number would be, except for sums within some 2^-45 codes of a
+/// half.
 template <class R>
 [[gnu::always_inline]] inline Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& stored,
                                              float scale) {
@@ -135,8 +135,8 @@ template <class R>
   return out;
 }
 
-/// Logic op, bit by bit, of the codes that merge() makes of `source` and of `stored`, which is in codes (OpenGL 2.1
-/// spec 4.1.10). In a float frame (`scale` 0), `source` as it is.
+/// Logic op, bit by bit, of source's code, as merge() makes it, and of `stored`, a code (OpenGL 2.1 spec 4.1.10). In a
+/// float frame (`scale` 0): `source`, unchanged.
 template <class R>
 Color<R> logic(LogicOp op, const Color<R>& source, const Color<R>& stored, float scale) {
   const Color<R> code = merge<R>(source, scale);

@@ -23,7 +23,7 @@ struct Surface {
   std::optional<TextureSetup> texture;
   const void* program = nullptr;  ///< a user's fragment program (program.h)
 };
-/// `lights`: stage 0's.
+/// Surface of the draw. `lights`: stage 0's.
 inline Surface surface_of(const Scene& scene, const Draw& draw, Lights lights) {
   Surface surface{&scene, &draw, {}, {}, {}};
   if (draw.texture) {
@@ -37,8 +37,8 @@ inline Surface surface_of(const Scene& scene, const Draw& draw, Lights lights) {
   return surface;
 }
 
-/// Input of stage 9: a fragment's attributes and texel. Not set in the painter, and never read: varyings that the
-/// surface does not carry, the texel without a texture, its lod. In the definition these are 0.
+/// Input of stage 9: a fragment's attributes and texel. The definition sets to 0 what is never read, the painter leaves
+/// it unset: varyings that the surface does not carry, the texel of a surface without a texture, every texel's lod.
 template <class R>
 struct SurfaceAttributes {
   Color<R> color;
@@ -100,7 +100,7 @@ Color<R> fogged(const Fog& fog, const Color<R>& color, R z_eye) {
   return {f * Vec3<R>(color) + rest * Vec3<R>(fog.color), color.a};
 }
 
-/// Sum of the rgb of both and alpha of `primary`, clamped to [0,1] (OpenGL 2.1 spec 3.9).
+/// Colour sum (OpenGL 2.1 spec 3.9): primary.rgb + secondary.rgb, and primary's alpha; clamped to [0,1].
 template <class R>
 Color<R> color_sum(const Color<R>& primary, const Color<R>& secondary) {
   const Color<R> sum = primary + secondary;

@@ -16,7 +16,7 @@ namespace {  // templates over these types are the object file's own
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-static_assert(HWY_TARGET <= HWY_SSE4, "what narrower ones emulate is not the same to the last bit");
+static_assert(HWY_TARGET <= HWY_SSE4, "targets narrower than SSE4 emulate operations, with other last bits");
 inline constexpr int kWidth = HWY_MAX_BYTES / 4;  // lanes: 4, 8 or 16 of a block's 16 pixels
 inline constexpr int kHalf = kWidth / 2;
 inline constexpr hn::FixedTag<float, kWidth> kFloats{};
@@ -298,7 +298,7 @@ inline Vec4<Simd> transposed(const Vec4<Simd>& in) {
     }
   }
 }
-// A vector of doubles holds the four numbers of one lane, or two of them, or those of two lanes.
+// Vector of kHalf doubles: two of a lane's four numbers (kHalf 2), all four (4), or all of two lanes (8).
 inline constexpr hn::FixedTag<double, kHalf == 2 ? 2 : 4> kFourDoubles{};
 inline constexpr hn::FixedTag<float, kHalf == 2 ? 2 : 4> kFourFloats{};
 template <class Four>
@@ -352,7 +352,7 @@ struct LanesOfSimd {
                                                        256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
     return (Int(static_cast<std::int32_t>(bits)) & load(kBits)) != Int(0);
   }
-  // Where both halves are equal they are one value, so that the compiler computes with it once.
+  // Equal halves are one value, so that the compiler computes with it once.
   [[gnu::always_inline]] static Wide columns_of_block(int block_x, int) {
     HWY_ALIGN static constexpr double kX[2 * kBlock] = {0, 1, 2, 3, 0, 1, 2, 3};
     const auto x = hn::Set(kDoubles, block_x), low = hn::Add(x, hn::LoadU(kDoubles, kX));

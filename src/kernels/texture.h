@@ -19,8 +19,8 @@ template <class R>
 struct TexCoords {
   R s, t;
 };
-/// Derivatives of s and t by window x and y [1/pixel], times q^2. Those by x are affine in y alone, those by y in x
-/// alone.
+/// Derivatives of s and t by window x and y [1/pixel], times q^2. Derivatives by x are affine functions of y alone,
+/// derivatives by y of x alone.
 template <class R>
 struct Gradients {
   Wide<R> ds_dx, dt_dx, ds_dy, dt_dy;
@@ -33,9 +33,9 @@ struct FilteredTexel {
   R lod;           ///< lambda: bias and limits applied
 };
 
-/// Per-triangle input of gradients(), with the barycentric planes' anchor. With S = s/w and q = 1/w, d(S/q)/dx q^2 is
-/// S_x q - S q_x, in which the terms of x cancel: (S_x q_0 - S_0 q_x) + (S_x q_y - S_y q_x) dy. By y it is
-/// (S_y q_0 - S_0 q_y) - (S_x q_y - S_y q_x) dx; `turn` is the bracket that both have.
+/// Per-triangle input of gradients(), relative to the barycentric planes' anchor. With S = s/w and q = 1/w, q^2
+/// d(S/q)/dx = S_x q - S q_x = (S_x q_0 - S_0 q_x) + (S_x q_y - S_y q_x) dy, as the terms in dx cancel; q^2 d(S/q)/dy =
+/// (S_y q_0 - S_0 q_y) - (S_x q_y - S_y q_x) dx. s_turn, t_turn: the factors of dy and -dx.
 template <class W>
 struct GradientSetupOf {
   W ds_dx, ds_dy, s_turn, dt_dx, dt_dy, t_turn;

@@ -7,7 +7,8 @@
 
 namespace plumbline::pipeline {
 
-/// Whether `a` compares so with `b`. Depth: incoming, stored; alpha: incoming, reference; stencil: reference, stored.
+/// Whether `a func b` holds. Depth test: incoming, stored; alpha test: incoming, reference; stencil test: reference,
+/// stored.
 template <class R, class T>
 Mask<R> compares(CompareFunc func, T a, T b) {
   switch (func) {
@@ -56,8 +57,8 @@ Int<R> stencil_value(StencilOp op, std::uint8_t reference, Int<R> held) {
   return held;
 }
 
-/// Mask of the fragments `alive` that pass the stencil test, whatever the depth test says. Of every fragment alive, the
-/// stored value at `at` (one per lane) changes by the face's op. `passes_depth`: fragments that pass the depth test.
+/// Mask of the fragments `alive` that pass the stencil test, whatever the depth test says. The face's op changes the
+/// stored value, at `at` (one per lane), of every fragment alive. `passes_depth`: fragments that pass the depth test.
 template <class R>
 Mask<R> stencil_test(const StencilFace& face, Mask<R> alive, Mask<R> passes_depth, std::uint8_t* at) {
   const Int<R> held = Lanes<R>::load(at), write(face.write_mask), kept(255 & ~face.write_mask);

@@ -30,7 +30,7 @@ const glm::vec4& pixel_of(const Plane<glm::vec4>& color, int i) {
   return color(4 * (i % kInRow) + 1, 4 * (i / kInRow) + 2);
 }
 
-// Nearer than those of the scene's draws.
+// Adds a draw of all 256 rectangles, nearer than those of the scene's draws before.
 Draw& add_tiles(Scene& scene, auto color_of) {
   Triangles triangles;
   const double z = 0.5 - 0.125 * static_cast<double>(scene.draws.size());
@@ -100,7 +100,7 @@ std::string said_of_other_codes(const Plane<glm::vec4>& color) {
   return "";
 }
 
-// How far colours are from linear ones at most [codes].
+// Largest difference of the colours from linear ones [codes].
 double largest_error(const Plane<glm::vec4>& color) {
   double most = 0;
   for (int i = 0; i < kAll; ++i) {

@@ -228,16 +228,16 @@ struct SlopedTriangle {
   double depth(glm::dvec2 p) const { return glm::dot(shares(p), {p_win[0].z, p_win[1].z, p_win[2].z}); }
 };
 
-// One large triangle (59 pixels) at the origin; 16 small ones (5 pixels) near (500, 500), nearly level, so that planes
-// lose little there.
+// One large triangle, 59 pixels wide, at the origin.
 std::vector<SlopedTriangle> large_and_near() {
   return {{{glm::dvec3(2, 1, 9973 / 65536.0), glm::dvec3(61, 5, 39019 / 65536.0), glm::dvec3(7, 58, 60013 / 65536.0)}}};
 }
-// One that is 2,000 pixels wide and 6 high, where what is stepped from pixel to pixel adds up.
+// One triangle of 2,000 x 6 pixels, along which errors of stepping from pixel to pixel add up.
 std::vector<SlopedTriangle> long_and_low() {
   return {
       {{glm::dvec3(1, 1, 9973 / 65536.0), glm::dvec3(2001, 3, 60013 / 65536.0), glm::dvec3(4, 7, 19013 / 65536.0)}}};
 }
+// 16 small triangles, 5 pixels wide, near (500, 500), nearly level, so that planes lose little there.
 std::vector<SlopedTriangle> small_and_far(int grid_bits) {
   const auto on_grid = [&](double p) { return std::ldexp(std::nearbyint(std::ldexp(p, grid_bits)), -grid_bits); };
   std::vector<SlopedTriangle> out;

@@ -91,7 +91,7 @@ std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Round
     least = std::min(least, sample), most = std::max(most, sample), sum += sample;
     ++n;
   }
-  // Scatter of ties, of an edge function's rounding, and of corners on a grid that is too fine to be measured.
+  // Largest scatter that ties, an edge function's rounding, and corners on a grid too fine to be measured may cause.
   if (n == 0 || most - least > 3.5 * edges.front().rise / kLong) return std::nullopt;
   double sample = sum / static_cast<double>(n);
   if (edges.front().rise == 1 && sample > 0.999) --sample;  // the lowest row was lost although lost_rows is 0

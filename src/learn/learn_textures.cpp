@@ -80,8 +80,8 @@ WeightErrors weight_errors(Prober& prober) {
   return out;
 }
 
-// Whether the errors are those of weights rounded to steps: up, down or to the nearest, and of colours in codes. Not of
-// another curve, nor of a sample that is off.
+// Whether the errors are those of weights rounded to steps (up, down or to the nearest) and of colours in codes: not
+// those of another curve, nor of a sample that is off.
 bool are_of_rounding(const WeightErrors& errors, double step) {
   constexpr double kCode = 1.0 / 255;
   return errors.most - errors.least <= 2 * step + 2 * kCode && std::abs(errors.mean) <= step / 2 + kCode;
@@ -125,7 +125,7 @@ void learn_weights(Prober& prober) {
   const bool are_float = most <= (c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01);
   const int bits = are_float ? C::kFloat : std::min(static_cast<int>(std::floor(-std::log2(step))), 12);
   if (!are_float && bits < 4) return prober.fits_none(words, evidence);
-  // Steps of two codes or more: less shows no form.
+  // Errors show their form where a step is two codes or more.
   if (constexpr int kMostCoarse = 7; !are_float && bits <= kMostCoarse) {
     const WeightErrors errors = weight_errors(prober);
     if (!are_of_rounding(errors, std::ldexp(1.0, -bits)))

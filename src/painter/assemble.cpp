@@ -73,7 +73,7 @@ class Assembler {
     for (std::uint32_t n = 0; n < chunk_.count; ++n) {
       each_tile(boxes_[n], [&](std::uint32_t& next) { numbers[next++] = n; });
     }
-    // Each tile's `first` has moved to the next tile's.
+    // Filling has advanced each tile's `first` to the next tile's: shift the array back by one entry.
     for (std::size_t t = first.size() - 1; t > 0; --t) first[t] = first[t - 1];
     first[0] = 0;
   }

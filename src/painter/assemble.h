@@ -1,5 +1,5 @@
-// Assembly of primitives: trivial accept and reject (stage 3) and culling (stage 4) of those whose vertices went
-// through stages 1, 2 and 4 in lanes; the definition, for the others; and binning of all.
+// Assembly of primitives. Primitives whose vertices went through stages 1, 2 and 4 in lanes: trivial accept and reject
+// (stage 3), culling (stage 4). Other primitives: stages 0 to 4 by the definition. All primitives: binning.
 #pragma once
 
 #include <span>
@@ -20,23 +20,23 @@ struct AssemblyWork {
   std::uint8_t any_outside;     ///< OR of `outside[]` over the draw's vertices
 };
 
-/// Facing of a triangle that is drawn; none: it is culled, or touches no tile.
+/// Facing of a triangle that is drawn; none: culled, without area, or with no sample of the frame in its bounding box.
 enum class Kept : std::int32_t { none, back, front };
 struct KeptTriangle {
   Kept kept;
   TileBox box;
 };
-/// Culls filled triangles (cull_lanes.h). `corners`: indices of the mesh's vertices; `to`: one result for each, without
-/// meaning where a corner is outside of the view volume.
+/// Function that culls filled triangles (cull_lanes.h). `corners`: indices of the mesh's vertices, per triangle; `to`:
+/// one result per triangle, without meaning where a corner is outside of the view volume.
 using CullTriangles = void (*)(const Painting& painting, const AssemblyWork& draw, std::span<const glm::uvec3> corners,
                                KeptTriangle* to);
 
-/// Stages 0 to 4 by the definition, of primitives that do not go through lanes (clipped ones, and whole draws:
-/// painter.h). The memory is kept from frame to frame.
+/// Stages 0 to 4 by the definition, of primitives that do not go through lanes: clipped primitives, and all primitives
+/// of the draws that painter.h names. Memory is kept from frame to frame.
 class ScalarGeometry {
  public:
-  /// Window triangles of these primitives, in draw order; valid until the next call. `draws`: one for each of the
-  /// scene's.
+  /// Window triangles of these primitives, in draw order; valid until the next call. `draws`: one per draw of the
+  /// scene.
   std::span<const ShadedTriangle> run(const Scene& scene, std::span<const AssemblyWork> draws);
 
  private:

@@ -34,7 +34,8 @@ struct FragmentSetup {
   PerspectiveSetup perspective;
   AttributeSetup attributes;  ///< the colour's
 };
-/// Per-triangle input of stages 7 to 9 in one tile, of a surface: the varyings that it carries.
+/// Per-triangle input of stages 7 to 9 in one tile: the surface, and the setup of each varying that the surface
+/// carries.
 struct SurfaceSetup {
   const Surface* surface;
   std::array<AttributeSetup, kVaryings> varyings;

@@ -10,8 +10,8 @@
 
 namespace plumbline::pipeline {
 
-/// Values of a varying at a triangle's corners. Under flat shading those of a lit varying are the provoking vertex',
-/// corner 1's.
+/// Values of a varying at a triangle's corners. Under flat shading all corners have a lit varying's value at the
+/// provoking vertex, corner 1.
 inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
                                              Varying v) {
   const Vec4<float>* column = painting.varyings[index_of(v)];
@@ -19,7 +19,7 @@ inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const Pai
   return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
 }
 
-/// The triangle as stage 4's record, but without its primitive's number (0).
+/// Record of stage 4 for the triangle; the record's primitive number is left 0.
 inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTriangle& t) {
   WindowTriangle out{{}, 0, t.front, t.corners, t.width};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -8,7 +8,7 @@
 
 namespace plumbline::pipeline {
 
-inline constexpr double kMostZ24 = 16777215;  ///< the largest code
+inline constexpr double kMostZ24 = 16777215;  ///< largest depth code of z24
 
 /// mean() of a colour with the same alpha at all corners, where 1/w is not near 0.
 template <class R>
@@ -19,7 +19,7 @@ template <class R>
   return {Vec3<R>(mixed<R>(s, k)), alpha};
 }
 
-/// Source of the pixels' colours: none is written, the interpolated colour, or set_codes().
+/// Source of the pixels' colours. none: no colour is written; own: the interpolated colour; given: set_codes().
 enum class PixelColors { none, own, given };
 
 /// Fragments of rgba8 and z24 that replace the stored ones where they are nearer. `kPlain`: all lanes have plain_depth
@@ -36,7 +36,8 @@ class PixelsOfLanes {
         sum_(lanes.sum.of_all()),
         color_(colors_of<R>(lanes)) {}
 
-  /// Computes each lane's i-th pixel; (x, y): in the tile.
+  /// Computes each lane's i-th pixel: index in the tile, depth code and, for PixelColors::own, colour. (x, y): counted
+  /// from the tile's first pixel.
   [[gnu::always_inline]] void work_out(int i, const Int<R>& x, const Int<R>& y) {
     using W = Wide<R>;
     const Offset<R> at{to_wide(x), to_wide(y)};

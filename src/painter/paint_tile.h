@@ -58,8 +58,8 @@ inline bool can_share_run(const PaintDraw& a, const PaintDraw& b) {
          a.kernel != PaintKernel::shades;
 }
 
-/// Runs of the tile's triangles, in draw order: per chunk, one for each draw, or for consecutive draws that can share
-/// one.
+/// Runs of the tile's triangles, in draw order: per chunk, one run for each draw, or for consecutive draws that
+/// can_share_run().
 inline void find_runs(const Painting& painting, std::size_t tile, std::vector<PaintRun>& runs) {
   runs.clear();
   for (const Chunk& chunk : painting.chunks) {
@@ -97,8 +97,8 @@ std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun>
 }
 
 /// Whether the kernels of the commonest draws are compiled for R. Processors without AVX2 have paint_run() alone, which
-/// draws the same. With SSE4's kernels, models were drawn 1.25 to 1.5 times as fast, and the renderer took a fifth
-/// longer to build.
+/// draws the same bits. With kernels for SSE4, models were drawn 1.25 to 1.5 times as fast, and the renderer took a
+/// fifth longer to build.
 template <class R>
 inline constexpr bool kHasKernels = Lanes<R>::width > 4;
 
@@ -185,7 +185,7 @@ bool clear_out(const Painting& painting, int x0, int y0, Frame& frame) {
   return true;
 }
 
-/// Fills pixels [from, to) of the tile's arrays with the clear depth; with the clear colour.
+/// Fill entries [from, to) of the tile's arrays: with the clear depth, with the clear colour.
 template <class R>
 void clear_depths(auto& tile, const ClearPixel& clear, int from, int to) {
   for (int i = from; i < to; i += Lanes<R>::width) store(R(clear.depth), tile.depth + i);
@@ -246,7 +246,7 @@ void move_out(const Painting& painting, PackedTile& tile, Frame& frame) {
   clear_bounds(tile, cleared);
 }
 
-/// Stage 12: mean_of_four() (resolve.h) of the samples' codes, into samples[0]. Its depths stay the first sample's.
+/// Stage 12: mean_of_four() (resolve.h) of the samples' codes, into samples[0], which keeps the first sample's depths.
 template <class R>
 void resolve_samples(PackedTile (&samples)[4]) {
   const R code(1.0f / 255.0f);
@@ -258,13 +258,13 @@ void resolve_samples(PackedTile (&samples)[4]) {
   }
 }
 
-/// Gives tile `number` its place in the frame.
+/// Sets the tile's lower left pixel to that of tile `number`, counted row by row.
 void place(const Painting& painting, int number, auto& tile) {
   tile.x0 = number % painting.columns * kTile, tile.y0 = number / painting.columns * kTile;
 }
 
-/// Stages 5 to 12 of tile `number`, from its clear values on, in memory. In frames of codes the first tile of memory is
-/// clear, as write_tile() leaves it.
+/// Stages 5 to 12 of tile `number`, from the frame's clear values on, in `memory`. In rgba8 frames memory.packed[0]
+/// must be clear, as write_tile() leaves it.
 template <class R>
 void paint_tile(const Painting& painting, int number, TileMemory& memory) {
   const auto begin = [&](auto& tile) {
@@ -289,7 +289,8 @@ void paint_tile(const Painting& painting, int number, TileMemory& memory) {
   }
 }
 
-/// Writes the tile of the last paint_tile() to the frame. Lanes<R>::end_of_stream() makes it visible to other threads.
+/// Writes the tile of the last paint_tile() to the frame; Lanes<R>::end_of_stream() makes its pixels visible to other
+/// threads.
 template <class R>
 void write_tile(const Painting& painting, TileMemory& memory, Frame& frame) {
   if (painting.format.color != ColorFormat::rgba8) return write_out(memory.tile, frame);

@@ -1,5 +1,5 @@
-// Stages 1, 2 and 4 of a mesh's vertices, as many at a time as R has lanes: what transform(), light() and
-// to_window() do one by one (geometry.h), and which planes of the view volume each violates.
+// Stages 1, 2 and 4 of a mesh's vertices, as many at a time as R has lanes: transform(), light() and to_window()
+// (geometry.h) in lanes, and the vertices' outcodes.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ Int<R> outside_planes(const Vec4<R>& p) {
          bit(p.z <= p.w, 32);
 }
 
-/// Vertices i to i + width - 1 of the draw; returns their outcodes.
+/// Stages 1, 2 and 4 of vertices i to i + width - 1 of the draw; returns their outcodes.
 template <class R>
 Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   constexpr int kLanes = Lanes<R>::width;
@@ -87,7 +87,7 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   return outside;
 }
 
-/// Vertices [from, to) of the draw; returns the OR of their outcodes.
+/// Stages 1, 2 and 4 of vertices [from, to) of the draw; returns the OR of their outcodes.
 template <class R>
 std::uint8_t paint_vertices(const VertexWork& work, std::size_t from, std::size_t to) {
   std::size_t i = from;

@@ -41,7 +41,7 @@ PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const DepthState& dept
                      draw.merge.depth_mask;
   if (!plain) return PaintKernel::any;
   const bool triangles = mesh.topology == Topology::triangles;
-  // Lines have no offset, whatever their draw's is (depth.cpp).
+  // Lines have no polygon offset, even where the draw sets one (depth.cpp).
   if (mesh.topology == Topology::lines || (triangles && draws_as(draw, PolygonMode::line))) {
     return is_opaque(draw.merge) && !has_surface ? PaintKernel::lines : PaintKernel::any;
   }
@@ -62,7 +62,7 @@ bool takes_samples(const FrameFormat& frame) {
 
 }  // namespace
 
-// Frames that are kept from scene to scene, while size and formats stay the same.
+// Frames kept from scene to scene, as long as number, size and formats of frames stay the same.
 class KeptFrames {
  public:
   std::vector<Frame>& of(const FrameFormat& format, std::size_t count) {
@@ -226,7 +226,8 @@ void Painter::Memory::run_vertices(const Scene& scene) {
   for (const Share& share : shares) assembly[share.draw].any_outside |= share.outside;
 }
 
-// Stages 0 to 4 by the definition, of primitives that do not go in lanes; their vertices are put behind the others'.
+// Stages 0 to 4 by the definition, of primitives that do not go in lanes. Their vertices follow all others in
+// `vertices`.
 void Painter::Memory::run_others(const Scene& scene) {
   const std::span<const ShadedTriangle> triangles = scalar_geometry.run(scene, assembly);
   others = {triangles, static_cast<std::uint32_t>(vertex_count)};

@@ -3,7 +3,7 @@
 //
 //   vertices (paint_vertices.h)   stages 1, 2 and 4 of each vertex once, as many at a time as there are lanes
 //   triangles (assemble.h)        culled and put into bins of tiles, in shares ("chunks") of the scene's primitives
-//   tiles (paint_tile.h)          stages 5 to 11, each tile by one thread, triangles in draw order
+//   tiles (paint_tile.h)          stages 5 to 12, each tile by one thread, triangles in draw order
 //
 // Clipped primitives, flat-shaded draws of lines, points or outlines, and draws lit at the vertices from two sides or
 // with a colour material go through stages 0 to 4 one by one, by the definition (scalar_geometry.cpp).

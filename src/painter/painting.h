@@ -23,7 +23,8 @@ T* room_for(std::size_t count, std::vector<T>& values) {
   return values.data();
 }
 
-/// pixel_offset() (tile.h) of integers or lanes: the index in a tile's arrays of its pixel (x, y); and its inverses.
+/// Index of pixel (x, y) in a tile's arrays, as pixel_offset() (tile.h), for integers or lanes; and the inverses:
+/// column and row of an index.
 template <class I>
 [[gnu::always_inline]] inline I place_in_tile(const I& x, const I& y) {
   const I within(kBlock - 1);

@@ -144,8 +144,8 @@ struct AttributeLanes {
   Color<R> value0, delta1, delta2;
   Mask<R> constant;
 };
-/// attribute_setup() of four floats per corner. member(vertex): their address; `flat`: the provoking vertex' (corner
-/// 1's) at all corners.
+/// attribute_setup() per lane, of four floats per corner. member(vertex): address of the floats; `flat`: all corners
+/// have those of the provoking vertex, corner 1.
 template <class R>
 [[gnu::always_inline]] inline AttributeLanes<R> attribute_lanes(const CornersOfLanes<R>& corner, bool flat,
                                                                 auto member) {
@@ -237,7 +237,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
     out.in_blocks = bits_of(Mask<R>(changes_little(q1, q2, sum, inv_w)));
   }
 
-  // From here on, corners are counted from the tile.
+  // Snapped corners, counted from the centre of the tile's first pixel [1/256 pixel].
   const I origin_x(tile.x * kSubpixel), origin_y(tile.y * kSubpixel);
   I x[3], y[3];
   for (int k = 0; k < 3; ++k) x[k] = snapped_x[k] - origin_x, y[k] = snapped_y[k] - origin_y;
@@ -278,7 +278,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   const Mask<R> small = (least_sum > W(0x1p-60)) & (terms_1 < most_weight) & (terms_2 < most_weight);
   out.plain_color = bits_of(small & same_alpha);
 
-  // Counter-clockwise.
+  // Corners in counter-clockwise order.
   const Mask<R> front = face > R(0);
   const I x1 = select(front, x[1], x[2]), y1 = select(front, y[1], y[2]);
   x[2] = select(front, x[2], x[1]), y[2] = select(front, y[2], y[1]);

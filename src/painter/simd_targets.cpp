@@ -21,8 +21,8 @@ bool has_f16c() {
 
 }  // namespace
 
-// A target is there if the processor has every instruction set that its code is compiled for (plumbline_simd() in
-// CMakeLists.txt): a virtual machine may hide some.
+// Targets whose instruction sets (plumbline_simd() in CMakeLists.txt) the processor has, every one of them: a virtual
+// machine may hide some.
 std::span<const SimdTarget> simd_targets() {
   static const std::array<SimdTarget, 4> kTargets = {
       {{"float", paint_vertices<float>, cull_triangles<float>, paint_tiles<float>},

@@ -81,7 +81,7 @@ struct Tile {
 struct PackedTile {
   int x0, y0;  ///< its lower left pixel
   alignas(64) float depth[kTile * kTile];
-  alignas(64) char apart[2112];  ///< so that a pixel's depth and colour are not 16 KiB apart: stores would stall loads
+  alignas(64) char apart[2112];  ///< padding: a pixel's depth and colour 16 KiB apart would stall loads
   alignas(64) std::uint32_t color[kTile * kTile];
   alignas(64) std::uint8_t stencil[kTile * kTile];
   alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< per block: an upper bound of its depths

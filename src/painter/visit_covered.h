@@ -118,8 +118,8 @@ template <class R, int kSampleCount>
   }
 }
 
-/// Iterator over a run's primitives, as many at a time as there are lanes: while (next()), `corner` and `count` are
-/// those of the next group. `from_last`: in reverse order.
+/// Iterator over a run's primitives, a group of as many as there are lanes at a time: after next() returns true,
+/// `corner` and `count` are the group's. `from_last`: in reverse order.
 template <class R, int kSampleCount>
 class LanesOfRun {
  public:
@@ -158,7 +158,7 @@ class LanesOfRun {
 
   const PaintVertex* corner[3][Lanes<R>::width];
   LaneTriangles<R, kSampleCount> lanes;
-  int count = 0;  ///< of lanes that hold a primitive
+  int count = 0;  ///< number of lanes that hold a primitive
 
  private:
   static constexpr std::size_t kLanes = Lanes<R>::width;
@@ -168,7 +168,7 @@ class LanesOfRun {
   const Painting& painting_;
   const PaintRun& run_;
   bool from_last_;
-  glm::ivec2 tile_;  // its lower left pixel
+  glm::ivec2 tile_;  // lower left pixel of the tile
   std::size_t begin_ = 0;
 };
 

@@ -25,9 +25,9 @@ ClipVertex lerp(const ClipVertex& v, const ClipVertex& towards, float t) {
   return out;
 }
 
-// Polygon less what lies outside of the plane. A plane adds one vertex to a convex polygon. Rounding may make the
-// polygon cross a plane many times; each run of vertices outside becomes two vertices: at most 3, 4, 6, 9, 13, 19, 28
-// vertices after 0 to 6 planes (Polygon::kMostCorners).
+// Polygon clipped by one plane. The plane adds one vertex to a convex polygon. Rounding may make the polygon cross a
+// plane many times; each run of outside vertices becomes two vertices: at most 3, 4, 6, 9, 13, 19, 28 vertices after 0
+// to 6 planes (Polygon::kMostCorners).
 Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
   Polygon out{in.primitive, {}};
   for (std::size_t i = 0; i < in.corners.size(); ++i) {
@@ -45,8 +45,8 @@ Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
   return out;
 }
 
-// Line less what lies outside of the planes; no corners where nothing is left. Each end moves by the largest share that
-// a plane cuts off there.
+// Line clipped by the planes; no corners where nothing is left. Each end moves by the largest share that a plane cuts
+// off there.
 Polygon cut_line(std::span<const Vec4<float>> planes, const Polygon& line) {
   const ClipVertex &a = line.corners[0], &b = line.corners[1];
   float from_a = 0, from_b = 0;

@@ -10,7 +10,7 @@
 //   const Frame frame = draw_program(Gouraud{...}, triangles, format);
 //
 // vertex() makes the input of stage 3 (render.h); fragment() replaces Stages::shade. Uniforms are members of the
-// program. Varyings are stored as vertex attributes, four floats each, and are clipped and interpolated as those are.
+// program. Varyings are stored, clipped and interpolated as vertex attributes of four floats each.
 #pragma once
 
 #include <array>
@@ -46,8 +46,8 @@ struct ProgramState {
   DepthFunc depth_func = DepthFunc::less;
 };
 
-/// Throws std::invalid_argument for more than 2^24 triangles, an antialiased frame, or one of no or more than 16384
-/// pixels a side.
+/// Throws std::invalid_argument for more than 2^24 triangles, an antialiased frame, or a frame side outside of [1,
+/// 16384] pixels.
 void require_drawable(std::size_t triangles, const FrameFormat& format);
 
 /// Draws a program's vertices, of which p_clip alone is read, on a cleared frame: three to a triangle, with one entry

@@ -18,8 +18,9 @@ struct Fragment {
   bool drawn;
 };
 
-/// Widens records to double and keeps those that a request names. Each call adds the records of one step, in the order
-/// of render(): lights(); per draw, draw(), vertices(), attributes(); per primitive polygon(), triangle(), fragment().
+/// Recorder that widens records to double and keeps those that a request names. Each call adds the records of one step,
+/// in the order of render(): lights(); per draw, draw(), vertices(), attributes(); per primitive polygon(), triangle(),
+/// fragment().
 class Recorder {
  public:
   Recorder() = default;  ///< keeps nothing

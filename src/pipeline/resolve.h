@@ -9,8 +9,8 @@
 
 namespace plumbline::pipeline {
 
-/// Resolves one channel of a pixel. `values`: one per sample, in the frame's format, as is the result: codes whose
-/// largest is `scale`; scale 0: floats.
+/// Function that resolves one channel of a pixel. `values`: one per sample. Values and result are in the frame's
+/// format: codes up to `scale`; scale 0: floats.
 using Resolve = float (*)(std::span<const float> values, std::span<const PixelSample> samples, float scale);
 
 /// Mean of four samples of equal weight, in float: (((a + b) + c) + d) * 0.25, where a code enters as code * (1/scale);

@@ -89,8 +89,8 @@ struct Shaded {
   bool discarded = false;  ///< by a user's program
 };
 
-/// One function or more per stage, none null; those with `out` append to it. Faults, users' programs and tests replace
-/// single functions.
+/// Stage functions, one or more per stage, none null; functions with `out` append to `out`. Faults, users' programs and
+/// tests replace single functions.
 struct Stages {
   // 0 matrices
   Matrices<float> (*matrices)(const Scene&, const Draw&);

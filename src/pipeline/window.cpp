@@ -17,8 +17,8 @@ WindowVertex window_vertex(const Matrices<float>& m, const ClipVertex& in) {
   return out;
 }
 
-// Whether z and 1/w are finite, and x and y near enough to be snapped to an int. Clipping does not ensure it: 1/w may
-// overflow, and a cut at tiny w may round to far outside.
+// Whether z and 1/w are finite, and x and y near enough to be snapped to an int. Clipped vertices may fail: 1/w may
+// overflow, and rounding may move a cut at a tiny w far outside of the frame.
 bool drawable(const WindowVertex& v) {
   constexpr float kFarthest = 1 << 20;
   return std::abs(v.p_win.x) <= kFarthest && std::abs(v.p_win.y) <= kFarthest && std::isfinite(v.p_win.z) &&

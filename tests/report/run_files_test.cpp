@@ -186,6 +186,9 @@ TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
   EXPECT_TRUE(holds(added));
   EXPECT_EQ(added.added.size(), 2u);
   EXPECT_FALSE(holds(diff(run({}), run({failing("light/a")})))) << "new, and broken";
+  SceneVerdict by_no_row = scene("light/b", {scene_row("light/b", Stage::clip, Outcome::equal, 1)});
+  by_no_row.failure = "unjudged: depth\n";
+  EXPECT_EQ(diff(run({}), run({by_no_row})).broken.at(0).was, "not there");
   EXPECT_TRUE(holds(diff(before, rows(Outcome::dispute, Outcome::equal)))) << "listed, no failure";
   EXPECT_EQ(diff(before, rows(Outcome::dispute, Outcome::equal)).moved.size(), 1u);
 

@@ -14,7 +14,7 @@ struct Gl;
 class Context {
  public:
   virtual ~Context() = default;
-  /// Makes it the calling thread's current context. Throws RendererFailed.
+  /// Makes this context current in the calling thread. Throws RendererFailed.
   virtual void make_current() = 0;
   /// The context's own function of this name ("glClear"), or null.
   using Function = void (*)();
@@ -34,7 +34,7 @@ std::unique_ptr<Context> make_egl_context(MesaDriver driver, ShaderCode code = S
 /// make_osmesa_context(), or make_egl_context() in a build without OSMesa.
 std::unique_ptr<Context> make_opengl_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
-/// The entry points of gl.h, from the context. Throws RendererFailed, naming one that is missing.
+/// Loads the entry points of gl.h from the context. Throws RendererFailed, naming one that is missing.
 Gl load(const Context& context);
 
 const char* name_of(MesaDriver driver);

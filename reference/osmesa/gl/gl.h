@@ -32,7 +32,7 @@ namespace plumbline::osmesa {
   F(TransformFeedbackVaryings) F(Translated) F(Uniform1i) F(UseProgram) F(VertexPointer) F(Viewport)
 // clang-format on
 
-/// The functions above, without their prefix "gl".
+/// Pointers to the functions of PLUMBLINE_GL_FUNCTIONS, which are named without their prefix "gl".
 struct Gl {
 #define PLUMBLINE_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
   PLUMBLINE_GL_FUNCTIONS(PLUMBLINE_GL_MEMBER)

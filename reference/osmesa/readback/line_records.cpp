@@ -59,7 +59,7 @@ void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& r
     } else {
       scene.draw_id(draw, line.primitive);
     }
-    // The code is unique to the line, so that earlier lines need not be cleared.
+    // The line's code is unique, so that earlier lines need not be cleared.
     const glm::dvec2 a(line.v[0].p_win), b(line.v[1].p_win), size(frame.width, frame.height);
     const double reach = 2.0 + line.width;
     const glm::ivec2 low(glm::clamp(glm::min(a, b) - reach, glm::dvec2(0), size));

@@ -54,7 +54,7 @@ std::vector<std::uint32_t> wanted_primitives(const DrawRange& range, const std::
   return primitives;
 }
 
-// The corners of the primitives; color(vertex) is a corner's colour.
+// Corners of the primitives, as feedback mode is fed with them; color(vertex) is a corner's colour.
 template <class Color>
 std::vector<FedCorner> fed_corners(const Mesh& mesh, std::uint32_t first_primitive,
                                    std::span<const std::uint32_t> primitives, const Color& color) {
@@ -183,7 +183,7 @@ bool outlined(const Mesh& mesh, const Draw& draw) { return mesh.topology == Topo
                   primitive));
 }
 
-// `filled`: feedback of the triangles, filled.
+// Throws Unsupported if the view volume cuts a triangle. `filled`: feedback of the triangles, drawn filled.
 void require_uncut(std::span<const FedTriangle> filled) {
   for (std::size_t i = 0; i < filled.size(); ++i) {
     const FedTriangle& t = filled[i];
@@ -193,8 +193,8 @@ void require_uncut(std::span<const FedTriangle> filled) {
   }
 }
 
-// `outlines`: their edges or corners, of which Mesa leaves one out where two cuts have corners' tags and the fan is one
-// triangle.
+// Throws Unsupported unless a triangle has three edges or corners. `outlines`: feedback of the unfilled triangles; Mesa
+// leaves one edge or corner out where two cuts have corners' tags and the fan is one triangle.
 void require_three_each(std::span<const FedTriangle> outlines) {
   for (std::size_t i = 0, end = 0; i < outlines.size(); i = end) {
     const std::uint32_t primitive = primitive_of(outlines[i]);
@@ -212,8 +212,8 @@ std::int64_t doubled_area(const WindowTriangle<double>& t) {
 }
 
 // Appends the triangles that are not culled. Feedback mode culls by the area of the unsnapped positions, the rasterizer
-// by that of the snapped ones (measured: on slivers the two differ, and the pixels are those of the latter). So culling
-// is off in GL, and applied here by the snapped area; GL's own culling shows in the planes.
+// by that of the snapped ones (measured: on slivers the two differ, and the pixels are the rasterizer's). So GL's
+// culling is off here, and triangles are culled by the snapped area; GL's own culling shows in the planes.
 void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std::vector<WindowTriangle<double>>& out) {
   for (const FedTriangle& fed : triangles) {
     WindowTriangle<double> t;

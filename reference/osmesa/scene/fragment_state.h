@@ -14,9 +14,9 @@ void set_fragment_tests(const Gl& gl, const Draw& draw);
 void disable_tests(const Gl& gl);
 void set_logic_op(const Gl& gl, const std::optional<LogicOp>& op);
 
-/// Texture environment that replaces every fragment's rgb by the bytes of a number, red the lowest, and keeps the alpha
-/// that the scene's texture has made. It is on the unit after the scene's; it acts before the alpha test, and its
-/// constant colour is not interpolated. Use within a PassState, no longer than that.
+/// Texture environment, on the unit after the scene's, that replaces every fragment's rgb by the bytes of a number, red
+/// the lowest, and keeps the alpha that the scene's texture has made. The environment acts before the alpha test, and
+/// its constant colour is not interpolated. Use within one PassState.
 class NumberedFragments {
  public:
   explicit NumberedFragments(const Gl& gl);

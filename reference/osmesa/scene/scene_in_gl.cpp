@@ -192,7 +192,7 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
   set_material(gl_, scene_, d);
   if (!has_vertex_program(draw)) return;
   gl_.UseProgram(light_programs_[draw]->name());
-  // With a vertex shader, the light model has no effect on two sides and colour sum: these have switches of their own.
+  // With a vertex shader, the light model has no effect on two sides and colour sum, which have switches of their own.
   if (scene_.light_model.sides == LightModel::Sides::two) gl_.Enable(GL_VERTEX_PROGRAM_TWO_SIDE);
   if (scene_.light_model.separate_specular) gl_.Enable(GL_COLOR_SUM);
 }

@@ -21,8 +21,8 @@ struct Primitives {
 
 class SceneInGl {
  public:
-  /// Keeps references to both. Throws RendererFailed for meshes whose arrays do not fit each other, and where OpenGL's
-  /// limits do not suffice.
+  /// Uploads the draws' meshes; keeps references to `gl` and `scene`. Throws RendererFailed for meshes whose arrays do
+  /// not fit each other, and where OpenGL's limits do not suffice.
   SceneInGl(const Gl& gl, const Scene& scene);
 
   const Scene& scene() const { return scene_; }

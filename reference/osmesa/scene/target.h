@@ -15,9 +15,9 @@ namespace plumbline::osmesa {
 class Target {
  public:
   /// Has the frame's size and depth format, but z24 for z8 (which OpenGL lacks) and for z16 with stencil values.
-  /// `color`: rgba8, rgba16 or rgba32f. A pass of one sample (Pass::sample) draws all four samples, of which that one
-  /// is read. The samples of a multisampled frame are resolved before they are read. Throws RendererFailed, naming
-  /// OpenGL's limit, where OpenGL cannot give size or format, and Unsupported where it lacks the samples
+  /// `color`: rgba8, rgba16 or rgba32f. A pass of one sample (Pass::sample) draws all four samples, and Pass::sample
+  /// alone is read. The samples of a multisampled frame are resolved before they are read. Throws RendererFailed,
+  /// naming OpenGL's limit, where OpenGL cannot give size or format, and Unsupported where it lacks the samples
   /// (Multisamples).
   Target(const Gl& gl, const FrameFormat& frame, ColorFormat color);
   ~Target();

@@ -56,7 +56,7 @@ GLint gl_environment(TextureEnvironment environment) {
 
 }  // namespace
 
-// OpenGL 2.1 spec, tables 3.22 and 3.23.
+// Texture environments of the OpenGL 2.1 spec, tables 3.22 and 3.23, in GLSL.
 std::string environment_of(const Scene& scene, const Draw& draw) {
   if (!draw.texture) return "";
   const TextureFormat format = scene.textures.at(draw.texture->texture).format;

@@ -15,7 +15,7 @@ std::string environment_of(const Scene& scene, const Draw& draw);
 
 class TexturesInGl {
  public:
-  /// Uploads all textures. Keeps references to both. Throws RendererFailed where GL refuses.
+  /// Uploads all textures; keeps references to `gl` and `scene`. Throws RendererFailed where GL refuses a texture.
   TexturesInGl(const Gl& gl, const Scene& scene);
   ~TexturesInGl();
   TexturesInGl(const TexturesInGl&) = delete;

@@ -1,4 +1,4 @@
-// A hard scene as its parts are added; the parts' files each add some.
+// Builder of a hard scene: each source file of this folder adds parts of the scene.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct View {
   double near = 1, far = 100;         ///< distances of the planes that clip
   bool of_pixels = false;             ///< world units are pixels: x and y are window coordinates, exactly
 
-  /// x, y in pixels, from the frame's lower left corner on.
+  /// World point that is seen at (x, y) [pixels from the frame's lower left corner], at this distance from the eye.
   Point at(double x, double y, double distance) const;
 };
 
@@ -74,11 +74,11 @@ struct HardMesh {
   std::string text;
   bool textured = false;  ///< the mesh has texture coordinates
   bool line_or_point = false;
-  bool made = false;  ///< by a generator, about the origin, of about unit size
+  bool made = false;  ///< by a generator of the format: about the origin, of about unit size
 };
 HardMesh mesh(Builder& b);
 HardMesh triangles_mesh(Builder& b);  ///< no lines, no points
-std::string place_made(Builder& b);   ///< transforms that bring what is made into view
+std::string place_made(Builder& b);   ///< transforms that bring a generator's mesh into view
 
 // Surfaces and light (surfaces.cpp).
 std::vector<double> rgb(Builder& b);

@@ -27,7 +27,7 @@ std::string normals_text(Builder& b, std::size_t count) {
   return points_text(out);
 }
 
-// Texels' borders and middles, one place for all corners, stretched far, or compressed.
+// Texture coordinates at texels' borders and centres, equal at all corners, stretched far, or compressed.
 std::string texcoords_text(Builder& b, std::size_t count) {
   Choices& c = b.choose;
   const double parts = c.of({1, 2, 8, 16, 64}), times = c.of({0, 0.01, 1, 1, 2, 16, 200}),

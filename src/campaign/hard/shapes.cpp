@@ -23,7 +23,7 @@ Spot anywhere(Builder& b) {
   return {x, along(b.view.height)};
 }
 
-// Where samples and pixels' corners are.
+// Spot on a grid of 1, 1/2, 1/4 or 1/16 pixel, on which pixels' corners and, from 1/2 on, pixels' centres lie.
 Spot on_grid(Builder& b) {
   Choices& c = b.choose;
   const double parts = c.of({1, 2, 2, 4, 16});
@@ -51,7 +51,7 @@ Shape scattered(Builder& b) {
   return out;
 }
 
-// The third corner beside the line of the other two.
+// Triangles whose third corner lies on or near the line through the other two.
 Shape slivers(Builder& b) {
   Choices& c = b.choose;
   Shape out;
@@ -69,7 +69,7 @@ Shape slivers(Builder& b) {
   return out;
 }
 
-// One triangle several times, each a hair behind or before the last, or at the same place from another corner on.
+// One triangle several times, each a hair behind the last or at the last one's place, perhaps from another corner on.
 Shape coincident(Builder& b) {
   Choices& c = b.choose;
   Shape out;
@@ -116,7 +116,7 @@ Shape gridded(Builder& b) {
   return out;
 }
 
-// A closed fan of one direction: each sample within it is in one triangle.
+// Closed fan of triangles of one winding: each sample inside the fan is in one triangle.
 Shape fan(Builder& b) {
   Choices& c = b.choose;
   constexpr std::array<std::array<double, 2>, 8> kRound = {

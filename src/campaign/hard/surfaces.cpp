@@ -4,7 +4,7 @@
 namespace plumbline::hard {
 namespace {
 
-// Codes' exact values, the middles between two codes, and ends of the range.
+// Share in [0,1]: the exact value of a code, the middle between two codes, an end of the range, or any number.
 double share(Builder& b) {
   return b.choose.of({0, 0, 1, 1, 0.5, 0.25, 1.0 / 255, 127.5 / 255, 254.5 / 255, b.choose.number(0, 1)});
 }

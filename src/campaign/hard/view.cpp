@@ -39,7 +39,7 @@ void orient(View& v) {
   v.upward = cross(v.right, v.forward);
 }
 
-// The planes that clip: usual ones, or both within a hair, or far apart.
+// Chooses the distances of the near and far planes: usual ones, nearly equal ones, or ones far apart.
 void choose_planes(Builder& b) {
   Choices& c = b.choose;
   b.view.near = c.of({1, 1, 1, 0.1, 0.5, 0.01, 3, 0.0001});
@@ -52,7 +52,7 @@ Object box(double left, double right, double bottom, double top) {
   return out;
 }
 
-// World units are pixels: every coordinate of the window is an exact one of the world.
+// Projection in which world units are pixels: every window coordinate is exactly a world coordinate.
 Object pixels(Builder& b) {
   View& v = b.view;
   v.of_pixels = true;

@@ -1,4 +1,4 @@
-// A scene as its parts are added; the parts' files each add some.
+// Builder of an ordinary scene: each source file of this folder adds parts of the scene.
 #pragma once
 
 #include <string>
@@ -43,7 +43,7 @@ std::string rgba_array(Builder& b, int count);  ///< opaque colours, now and the
 std::string translate(const std::vector<double>& by);
 std::string scale(const std::vector<double>& by);
 std::string rotate(double degrees, const std::vector<double>& axis);
-/// Depth functions that let pass what is nearer, or as near.
+/// Depth functions of the scene's dialect that pass nearer fragments, and nearer or equally near ones.
 std::string_view nearer(const Builder& b);
 std::string_view nearer_or_equal(const Builder& b);
 
@@ -73,7 +73,7 @@ Object curve_mesh(Builder& b);
 Object star_mesh(Builder& b, int count);
 
 // Opaque draws (opaque_draws.cpp): each adds one or several.
-std::string place(Builder& b, const Solid& solid);  ///< transforms that stand it somewhere on the floor
+std::string place(Builder& b, const Solid& solid);  ///< transforms that place the solid on the floor
 void add_floor(Builder& b);
 void add_wall(Builder& b);
 void add_solids(Builder& b);
@@ -93,7 +93,7 @@ void add_outline(Builder& b);
 void add_inset(Builder& b);
 void add_oddity(Builder& b);  ///< a logic op, a colour mask, a depth range, an unusual depth function
 
-// The scene around them (view.cpp).
+// Frame, camera, projection and lights (view.cpp).
 Object frame(Builder& b);
 Object camera(Builder& b);
 Object projection(Builder& b);

@@ -147,7 +147,8 @@ void add_cut_out(Builder& b) {
   }
 }
 
-// The floor's mask in the stencil buffer, the solid upside down in it, the floor over that, half seen through.
+// Mirror: the floor marks the stencil buffer, the solid is drawn upside down at the marks, the floor is blended over
+// it.
 void add_mirror(Builder& b) {
   Choices& c = b.choose;
   b.wants_stencil = true;
@@ -189,7 +190,7 @@ void add_shadow(Builder& b) {
   b.draws.push_back(shadow);
 }
 
-// A solid that marks its pixels, and around it a larger one of one colour where there is no mark.
+// Outline: a solid marks its pixels in the stencil buffer; a larger one is drawn where no mark is.
 void add_outline(Builder& b) {
   b.wants_stencil = true;
   const Solid what = solid(b);

@@ -11,8 +11,8 @@
 
 namespace plumbline::ordinary {
 
-/// A scene file's text, of the numbers that `choices` hands out. Meshes and images that it names are in the assets of the
-/// build and in tests/scenes/texture.
+/// Text of a scene file, made of the numbers that `choices` hands out. Meshes and images that the scene names are in
+/// the assets of the build and in tests/scenes/texture.
 std::string ordinary_scene(campaign::Choices choices, const std::string& description);
 
 }  // namespace plumbline::ordinary

@@ -12,7 +12,7 @@ namespace plumbline::campaign {
 class Reached {
  public:
   Reached();
-  /// Adds a scene's states; says whether any pair of them, or any of them alone, is new.
+  /// Adds a scene's states; returns whether any of them, or any pair of them, is new.
   bool add(const StateBits& of_scene);
   std::size_t states() const;
   /// Unordered pairs of different states.

@@ -1,7 +1,7 @@
 // Choices by seed: the same on every machine, for the distributions are integer arithmetic of our own (those of
 // <random> differ between libraries) on the numbers of std::mt19937_64, which the C++ standard fixes.
 //
-// A scene is mutated by other choices, not by changes of its text: so each mutant is a valid scene.
+// Mutants of a scene are made by other choices, not by changes of the scene's text: so each mutant is a valid scene.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ namespace plumbline::campaign {
 
 class Choices {
  public:
-  /// Numbers of the first seed. Each seed after it replaces one number in 24 of those before by one of its own.
+  /// Choices by the numbers of the first seed; each further seed replaces one in 24 of the numbers by one of its own.
   explicit Choices(std::span<const std::uint64_t> seeds);
 
-  /// In [low, high], of at most 2^32 numbers; each equally likely, to 2^-32.
+  /// Whole number in [low, high], a range of at most 2^32 numbers, each equally likely, to 2^-32.
   std::int64_t whole(std::int64_t low, std::int64_t high);
   int count(int low, int high) { return static_cast<int>(whole(low, high)); }
   /// True in `percent` of 100 cases.

@@ -8,9 +8,9 @@
 
 namespace plumbline::campaign {
 
-/// At most nine digits; -0 is 0.
+/// Number of at most nine significant digits; -0 is written as 0.
 std::string json(double number);
-/// Without characters that JSON escapes.
+/// String in quotes. `text`: without characters that JSON escapes.
 std::string json_string(std::string_view text);
 std::string json_array(const std::vector<std::string>& values);
 std::string json_numbers(const std::vector<double>& numbers);

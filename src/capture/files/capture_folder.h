@@ -1,5 +1,5 @@
-// A capture as a folder: manifest.json and one little-endian .bin file per array. A renderer in another process, in any
-// language, needs nothing but this.
+// Capture folder: manifest.json and one little-endian .bin file per array. A renderer in another process, in any
+// language, has nothing else to write.
 //
 //   {"format": "plumbline capture", "version": 1, "renderer": "...", "renderer_version": "...",
 //    "width": 97, "height": 61, "byte_order": "little",
@@ -21,7 +21,7 @@
 
 namespace plumbline {
 
-/// The message names the file and, where there is one, the array.
+/// Error of a capture folder. The message names the file and, where there is one, the array.
 struct CaptureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -31,7 +31,7 @@ struct CaptureError : std::runtime_error {
 /// OutputError (atomic_path.h).
 void write_capture(const Capture& capture, const std::filesystem::path& folder);
 
-/// What write_capture would throw of the folder, before there is a capture; leaves nothing behind.
+/// Throws what write_capture() would throw for this folder, before there is a capture; leaves no file behind.
 void require_writable_capture(const std::filesystem::path& folder);
 
 /// Reads a capture back, bit for bit; values may be anything, NaN included. Throws CaptureError on what is missing, of

@@ -4,8 +4,8 @@
 //    "subpixel_bits": 4, "tie_rule": "left_top", "texture_bits": "float", ..., "open": ["blending"],
 //    "unexplained": ["one scene drawn twice differs"]}
 //
-// Keys and words are those of capture/conventions.h. A key that is left out is OpenGL's; "open" names those that the
-// renderer did not show, which are OpenGL's, too.
+// Keys and words are those of capture/conventions.h. A key that is left out has OpenGL's value; "open" names
+// conventions that the renderer did not show, which have OpenGL's values, too.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@
 
 namespace plumbline {
 
-/// Throws JsonError (json_tree.h): not there, not of this format, a key or word that is not known, a sample outside of
-/// [0,1], bits beyond 0 to 16.
+/// Reads conventions.json. Throws JsonError (json_tree.h) for a missing file, another format, an unknown key or word, a
+/// sample outside of [0,1], or bits beyond 0 to 16.
 Conventions read_conventions(const std::filesystem::path& file);
 /// Text of conventions.json: every convention, a line each. Control characters of findings become spaces, and bytes
 /// that are no UTF-8 U+FFFD.

@@ -14,16 +14,17 @@
 
 namespace plumbline {
 
-/// The message names the file.
+/// Error of an image file. The message names the file.
 struct ImageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 using Bytes = std::string;
 
-/// Each encodes a plane as the bytes of a file whose name it is given. All throw ImageError: for an empty plane, an
-/// ending that is not theirs, or a format that the file cannot hold. Where a file holds codes, values are clamped to
-/// [0,1] (NaN: 0) and rounded to nearest: value * 255, of an rgba12 frame value * 4095, of rgba16 value * 65535.
+/// Encoders: each returns a plane as the bytes of the file that `file` names. All throw ImageError for an empty plane,
+/// a name with another ending than the encoder's, or a format that the file cannot hold. Where a file holds codes,
+/// values are clamped to [0,1] (NaN: 0) and rounded to nearest: value * 255, of an rgba12 frame value * 4095, of rgba16
+/// value * 65535.
 ///
 /// .png: 8-bit RGBA; of an rgba16 frame 16-bit; of rgba12, too, each code c as c * 65535 / 4095 rounded, so that none
 /// is lost.
@@ -42,7 +43,7 @@ Bytes encode_depth_exr(const std::filesystem::path& file, const Plane<double>& p
 /// .exr, one channel "Z": the codes of the depth format as numbers, which 32-bit float holds without loss up to 24
 /// bits; of z32f window z itself. (Window z of 24 bits, a quotient, would be rounded.)
 Bytes encode_depth_codes(const std::filesystem::path& file, const Plane<double>& plane, DepthFormat format);
-/// Encodes by the file name's ending, one of the four. `format`: the frame's colour format.
+/// Encodes by the file name's ending, .png, .tga, .ppm or .exr. `format`: the frame's colour format.
 Bytes encode_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                    ColorFormat format = ColorFormat::rgba8);
 
@@ -69,8 +70,8 @@ struct StoredImage {
   Window data, display;  ///< what is stored, and the frame that it is a part of; y from the top, as in the file
 };
 
-/// Any one image that OpenImageIO knows, of up to 16384 x 16384 pixels and 2^28 values. Refused: parts, MIP levels,
-/// deep pixels, volumes.
+/// Reads an image of any format that OpenImageIO knows, of up to 16384 x 16384 pixels and 2^28 values. Throws
+/// ImageError for several parts or MIP levels, deep pixels and volumes.
 StoredImage read_stored(const std::filesystem::path& file);
 
 /// Inverses, bit for bit, of encode_image (4 channels: not .ppm) and of encode_depth_codes. `file`: for messages. Throw

@@ -63,8 +63,8 @@ void add_primitive(const Mesh& from, const glm::uvec3& corners, const glm::vec4&
 // no room above it, and three equal corners may interpolate to a little less.
 constexpr std::uint32_t kBase = 255;
 
-// Number of a primitive, plus 1 (0 is the cleared frame), in a colour. A quarter code is added, so that rounding to
-// nearest and down gives the code back; where the renderer rounds up, it is subtracted.
+// Colour of a primitive's number plus 1; 0 is the cleared frame. A quarter code is added, so that rounding to nearest
+// and rounding down give the code back; where the renderer rounds up, a quarter code is subtracted.
 glm::vec4 color_of(std::uint32_t primitive, Conventions::Rounding rounding) {
   const std::uint32_t number = primitive + 1;
   const glm::vec3 codes(number % kBase, number / kBase % kBase, number / (kBase * kBase) % kBase);
@@ -106,7 +106,7 @@ class PicturesAlone {
  private:
   const Scene& scene_;
   Renderer& renderer_;
-  std::vector<DepthFunc> funcs_;  // the first: the one that is drawn by
+  std::vector<DepthFunc> funcs_;  // functions left to try; pictures are drawn by the first
 };
 
 }  // namespace

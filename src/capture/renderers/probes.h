@@ -1,4 +1,4 @@
-// Coverage and winners of a renderer that shows pictures alone: found by scenes that are made for it.
+// Probes: coverage and winners of a renderer that shows pictures alone, found from pictures of scenes made for it.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ Scene primitives_by_color(const Scene& scene, Conventions::Rounding rounding = C
 /// The primitive that primitives_by_color() draws in this colour; kBackground for black, 255^3 for a colour of none.
 std::int32_t winner_of(const glm::vec4& color);
 
-/// Adds planes to a capture from pictures that the renderer draws of these scenes: count and id_sum, where the capture
-/// has neither; id, where it has none, no draw tests alpha, and the frame has no stencil values. Throws
-/// what the renderer throws, and Unsupported for more than kMostProbes primitives, for pictures without planes.color,
-/// and where winners are drawn in colours of no primitive, or encoded (Conventions::color_encoding).
+/// Adds planes to a capture from the renderer's pictures of primitive_alone() and primitives_by_color(): count and
+/// id_sum, where the capture has neither; id, where it has none, no draw tests alpha, and the frame has no stencil
+/// values. Throws what the renderer throws, and Unsupported for more than kMostProbes primitives, for pictures without
+/// planes.color, and where winners are drawn in colours of no primitive, or encoded (Conventions::color_encoding).
 void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture);
 
 }  // namespace plumbline

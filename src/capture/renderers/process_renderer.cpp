@@ -111,7 +111,7 @@ bool is_whole_capture(const fs::path& folder) {
   }
 }
 
-// A program's words for a message: a short line without control characters.
+// Message text of a program's words: one short line without control characters.
 std::string shortened(std::string text) {
   constexpr std::size_t kMost = 200;
   if (text.size() > kMost) text = text.substr(0, kMost) + "...";
@@ -224,7 +224,7 @@ class ProcessRenderer : public Renderer {
     const std::string kind = answer->substr(0, space), reason = answer->substr(std::min(space + 1, answer->size()));
     if (kind == "unsupported") throw Unsupported(reason.empty() ? spec_.name + " gave no reason" : shortened(reason));
     if (kind == "failed") fail(reason.empty() ? "failed, and gave no reason" : "failed: " + shortened(reason));
-    server_.reset();  // which line is the next answer, nobody knows
+    server_.reset();  // no later line can be matched with its question
     fail(fmt::format("answered \"{}\", expected ok, unsupported REASON or failed REASON", shortened(*answer)));
   }
 

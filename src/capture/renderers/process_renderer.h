@@ -1,4 +1,4 @@
-// A program of any kind as a renderer: it is handed a scene, and an empty folder in which it leaves a capture
+// Program as a renderer. The program is handed a scene and an empty folder, in which it leaves a capture
 // (capture_folder.h).
 #pragma once
 

@@ -30,9 +30,10 @@ struct Watch {
 std::unique_ptr<Renderer> make_watched(const std::string& name, const std::function<std::unique_ptr<Renderer>()>& make,
                                        std::uint32_t number, const Watch& watch);
 
-/// The inner renderer, number `number` of its worker. Steps: a capture() of a picture alone (WantedPlanes::picture and
-/// no records), any other capture(), and run_stage() of each stage. A step throws RendererFailed where watch.ended
-/// holds it, with the words there, and where memory is lacking. Null stays null.
+/// Watched renderer around `inner`, which has this number in its worker. Steps: a capture() of a picture alone
+/// (WantedPlanes::picture and no records), any other capture(), and run_stage() of each stage. A step throws
+/// RendererFailed where memory is lacking and, with the recorded words, where watch.ended holds the step. Null stays
+/// null.
 std::unique_ptr<Renderer> make_watched(std::unique_ptr<Renderer> inner, std::uint32_t number, const Watch& watch);
 
 }  // namespace plumbline

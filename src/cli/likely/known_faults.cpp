@@ -69,7 +69,7 @@ void add_neighbours(const FrameFormat& frame, std::vector<KnownFault>& out) {
   }
 }
 
-// Turns the depth test round, and clears depth to the other end.
+// Reverses the order of the depth functions, and clears depth to the other end, 1 - clear_depth.
 void keep_farthest(Scene& scene) {
   scene.frame.clear_depth = 1 - scene.frame.clear_depth;
   for (Draw& draw : scene.draws) {
@@ -83,7 +83,7 @@ void keep_farthest(Scene& scene) {
   }
 }
 
-// Faults that a right frame gets on its way into a file.
+// Faults of writing a right frame to a file.
 void add_files(bool is_square, std::vector<KnownFault>& out) {
   const auto add = [&](const char* name, const char* says, std::function<void(ColorAndDepth&)> change) {
     out.push_back({.stage = "file", .name = name, .says = says, .of_frame = std::move(change)});
@@ -109,7 +109,7 @@ void add_files(bool is_square, std::vector<KnownFault>& out) {
       change_depth([](double z) { return 1 - z; }));
 }
 
-// Encodings of colours, before they become codes where fragments replace what is stored.
+// Faults that encode colours: before rounding to codes where fragments replace the stored colour, else after it.
 void add_encodings(std::vector<KnownFault>& out) {
   const auto add = [&](const char* name, const char* says, void (*encode_color)(glm::vec4&)) {
     out.push_back({.stage = "file",
@@ -127,7 +127,7 @@ void add_encodings(std::vector<KnownFault>& out) {
   });
 }
 
-// Faces that are culled in draws that cull none.
+// Faults that cull back faces, or front faces, in draws that cull none.
 void add_culls(std::vector<KnownFault>& out) {
   const auto add = [&](const char* name, const char* says, Cull cull) {
     out.push_back({.stage = "window", .name = name, .says = says, .of_scene = [cull](Scene& s) {
@@ -138,7 +138,7 @@ void add_culls(std::vector<KnownFault>& out) {
   add("window.front_culled", "front faces are culled, though no face is to be", Cull::front);
 }
 
-// Faults of a frame, and of scenes that differ but by these.
+// Faults that change the finished frame, or draw a changed scene.
 std::vector<KnownFault> of_pictures(const FrameFormat& frame, bool has_alpha) {
   std::vector<KnownFault> out;
   add_files(frame.width == frame.height, out);

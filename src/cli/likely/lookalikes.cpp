@@ -102,10 +102,9 @@ std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
 }
 
-// Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels, and no more legal ones contradict
-// the fault than those that it explains. Where a stage up to coverage is
-// wrong on its own input, or a fault of a wrong stage explains as much, only faults of wrong stages count. `all`: the
-// nearest first. Returns the fault named, or null.
+// Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels, and no more legal pixels
+// contradict it than it explains. Where a stage up to coverage is wrong on its own input, or a fault of a wrong stage
+// explains as much, only faults of wrong stages count. `all`: the nearest first. Returns the fault named, or null.
 const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   const auto explains = [&](const Lookalike& l) {
@@ -244,8 +243,9 @@ bool tells_legality(const check::Comparison& row, Stage stage) {
   return row.stage == stage && judges_legality(row.judge, row.stage) && was_compared(row);
 }
 
-// Plane of 1 where no row that judges legality finds the pixel wrong; no such row of `part`, if given. Empty where no
-// such row judged colours, or the part, no row finds a pixel wrong, or one does not list all of its pixels.
+// Plane of 1 at pixels that no row that judges legality (with `part`: no such row of that stage) finds wrong. Empty
+// where no such row judged stage `part` (without one: merge), where no row finds a pixel wrong, or where a row does not
+// list all of its pixels.
 Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict,
                                  std::optional<Stage> part = {}) {
   const auto tells = [&](const check::Comparison& row) { return tells_legality(row, part.value_or(Stage::merge)); };

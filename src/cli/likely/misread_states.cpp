@@ -146,7 +146,7 @@ bool is_set(const DepthRange& range) { return range != DepthRange(); }
 bool is_set(bool writes_depth) { return !writes_depth; }
 bool is_set(const glm::bvec4& written) { return written != glm::bvec4(true); }
 
-// State of(draw) that stays: where a draw sets none, it has that of the draw before.
+// State of(draw) that persists: a draw that sets none has that of the draw before.
 template <class Of>
 Change stays(Of of) {
   return [of](Scene& scene) {

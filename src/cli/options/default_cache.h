@@ -7,7 +7,7 @@ namespace plumbline::cli {
 
 /// $XDG_CACHE_HOME/plumbline, or ~/.cache/plumbline; empty where neither variable is an absolute path.
 std::string default_cache();
-/// Makes the folder. Where it cannot be made: throws std::invalid_argument, unless it is the default one: then empty.
+/// Creates the folder and returns it. On failure: empty for default_cache(), else throws std::invalid_argument.
 std::string made_cache(const std::string& folder);
 
 }  // namespace plumbline::cli

@@ -13,9 +13,9 @@ namespace plumbline::cli {
 /// --program and its options.
 struct ProgramArgument {
   std::string command;  ///< empty: none is asked
-  bool probes = false;  ///< it is called for each primitive, too, for coverage and winners (capture/renderers/probes.h)
+  bool probes = false;  ///< also called for each primitive, for coverage and winners (capture/renderers/probes.h)
   std::string from{};   ///< "clip", "window": the program begins there, earlier stages are given; empty: at the start
-  std::string conventions{};            ///< a file that declares them (capture/files/conventions_file.h), or empty
+  std::string conventions{};            ///< file of its conventions (capture/files/conventions_file.h), or empty
   std::chrono::seconds time_limit{60};  ///< of a scene
 };
 
@@ -38,12 +38,12 @@ std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program);
 /// The conventions that the file declares; without one, undeclared(). Throws JsonError.
 Conventions conventions_of(const std::string& file);
 
-/// Lines for people: what the conventions of the file leave open, and is judged as OpenGL's or not at all. No file: of
-/// a renderer that declares none. Throws JsonError.
+/// Lines for people: conventions that the file leaves open, which are judged as OpenGL's or not at all. No file: those
+/// of a renderer that declares none. Throws JsonError.
 std::string convention_notes(const std::string& file);
 
-/// For people, of a renderer that is wrong: its conventions may be others than the file declares, or than OpenGL's
-/// where there is no file; how to find them. A line and a command.
+/// Hint for people about a wrong renderer: its conventions may be others than the file declares or, without a file,
+/// than OpenGL's; and how to find them. A line and a command.
 std::string hint_of_conventions(const std::string& file);
 
 /// The command line with {submission} replaced by the folder's absolute path, quoted for a shell. Throws

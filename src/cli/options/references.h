@@ -18,15 +18,15 @@ struct References {
 };
 /// `assets`: folders of --assets, for references in processes of their own.
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets);
-/// In a worker: each is watched, numbered from 1, and there are arbiters. `fault`: of one of them (faults/endings.h),
-/// or of none.
+/// References in a worker, with arbiters: each reference is watched, with a number from 1 on. `fault`: of one of the
+/// references (faults/endings.h), or of none.
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
                            const Watch& watch, const std::string& fault = "");
 
-/// Throws std::runtime_error where one of them runs in a process of its own, and no temporary folder can be made.
+/// Throws std::runtime_error where a reference of `names` runs in its own process, and no temporary folder can be made.
 void require_references(const std::vector<std::string>& names);
 
-/// Each once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
+/// The known references among `names`, each once, in the order of known_reference_names().
 std::vector<std::string> without_repeats(const std::vector<std::string>& names);
 
 /// Names that a row may be against: all known references, "golden" and "picture".

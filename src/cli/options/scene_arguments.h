@@ -1,4 +1,4 @@
-// The arguments that all subcommands share which read scenes.
+// Arguments that all subcommands that read scenes share.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,7 @@ struct SceneArguments {
   std::string repeated() const;
 };
 
-/// The word as a shell takes it back: quoted if it has to be.
+/// The word as it is written on a shell's command line: quoted if a shell would read it otherwise.
 std::string shell_word(const std::string& word);
 
 }  // namespace plumbline::cli

@@ -12,9 +12,9 @@ namespace plumbline::report {
 /// A folder (page.h) with index.html and <group>/<scene>/*.png.
 class GoldenPage {
  public:
-  /// Throws OutputError (atomic_path.h), as all here do.
+  /// Throws OutputError (atomic_path.h), as all members do.
   explicit GoldenPage(const std::filesystem::path& folder) : page_(folder) {}
-  /// `says`: what becomes of it, such as "written".
+  /// `says`: what becomes of the new picture: "accepted", "would be written" or "refused".
   void add(const Scene& scene, const std::string& says, const check::GoldenDifference& difference,
            const check::Vouch& vouch);
   void write(const std::string& summary);

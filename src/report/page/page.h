@@ -21,7 +21,7 @@ class PageFolder {
   /// Removes an earlier run's page, which else might pass for this run's.
   void remove_earlier();
   void write(const std::string& name, std::string_view bytes);
-  /// As a PNG.
+  /// Writes the plane as a PNG.
   void write_picture(const std::string& name, const Plane<glm::vec4>& plane);
   /// Writes index.html with `body` (HTML), web/page.css and `style` (CSS), and makes the folder appear.
   void commit(const std::string& title, std::string_view style, const std::string& body);

@@ -9,7 +9,7 @@ namespace plumbline::report {
 
 /// One of web/'s files. Throws std::logic_error if there is none of that name.
 std::string_view web_file(std::string_view name);
-/// Several, in that order, each ended by a new line.
+/// Files of web/ in the order of `names`, each ended by a new line.
 std::string web_files(std::initializer_list<std::string_view> names);
 
 }  // namespace plumbline::report

@@ -87,17 +87,18 @@ void add_row(RunDiff& out, const std::string& what, const Comparison& was, const
 }
 
 // Failures of a scene that are in none of its rows: an unjudged stage, an expectation no longer met.
-void add_scene(RunDiff& out, const std::string& what, const SceneVerdict& was, const SceneVerdict& now) {
+// `was`: null where the earlier run has no such scene.
+void add_scene(RunDiff& out, const std::string& what, const SceneVerdict* was, const SceneVerdict& now) {
   const auto by_row = [](const SceneVerdict& v) {
     return std::ranges::any_of(v.comparisons, [](const Comparison& c) { return is_failure(c.outcome); });
   };
   const auto first_line = [](const SceneVerdict& v) {
     return v.failure.empty() ? "holds" : v.failure.substr(0, v.failure.find('\n'));
   };
-  if (was.failure.empty() && !now.failure.empty() && !by_row(now))
-    out.broken.push_back({what, "holds", first_line(now)});
-  if (!was.failure.empty() && now.failure.empty() && !by_row(was))
-    out.fixed.push_back({what, first_line(was), "holds"});
+  const bool failed = was != nullptr && !was->failure.empty();
+  if (!failed && !now.failure.empty() && !by_row(now))
+    out.broken.push_back({what, was != nullptr ? "holds" : "not there", first_line(now)});
+  if (failed && now.failure.empty() && !by_row(*was)) out.fixed.push_back({what, first_line(*was), "holds"});
 }
 
 using Kind = std::pair<std::string_view, const std::vector<Change>*>;
@@ -136,13 +137,12 @@ RunDiff diff(const CheckRun& before, const CheckRun& now, const DiffLimits& limi
   const auto old_scenes = scenes_of(before), scenes = scenes_of(now);
   for (const auto& [what, verdict] : scenes) {
     const auto found = old_scenes.find(what);
-    const SceneVerdict none;
-    const SceneVerdict& was = found == old_scenes.end() ? none : *found->second;
+    const SceneVerdict* was = found == old_scenes.end() ? nullptr : found->second;
     add_scene(out, what, was, *verdict);
-    if (found == old_scenes.end()) continue;
-    if (beyond(was.seconds, verdict->seconds, limits.slower) &&
-        std::abs(was.seconds - verdict->seconds) >= limits.at_least_s) {
-      out.times.push_back({what, fmt::format("{:.2f} s", was.seconds), fmt::format("{:.2f} s", verdict->seconds)});
+    if (was == nullptr) continue;
+    if (beyond(was->seconds, verdict->seconds, limits.slower) &&
+        std::abs(was->seconds - verdict->seconds) >= limits.at_least_s) {
+      out.times.push_back({what, fmt::format("{:.2f} s", was->seconds), fmt::format("{:.2f} s", verdict->seconds)});
     }
   }
   for (const std::string& line : now.head.failures) {

@@ -21,7 +21,7 @@ struct CheckRun {
   std::set<std::string> words;
 };
 
-/// Throws JsonError (json_tree.h): not what write_json() leaves.
+/// Reads the JSON file of a run. Throws JsonError (json_tree.h) for a file that write_json() does not leave.
 CheckRun read_run(const std::filesystem::path& file);
 
 /// Whether no scene has a failure.

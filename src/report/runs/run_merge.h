@@ -1,4 +1,4 @@
-// The shards of one run as that run.
+// Merger of the shards of one run.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct Merged {
   std::vector<std::string> missing;  ///< lines: shards that are not there, and what is lacking with them
 };
 
-/// At least one run. Throws std::runtime_error naming the files: versions or tolerances that differ, from each other or
-/// from this program's; shards of another run; a scene twice, with results that differ (times may).
+/// Merges the runs, at least one. Throws std::runtime_error naming the files: versions or tolerances that differ, from
+/// each other or from this program's; shards of another run; a scene twice, with results that differ (times may).
 Merged merge(std::vector<CheckRun> runs);
 
 }  // namespace plumbline::report

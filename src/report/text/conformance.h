@@ -40,13 +40,13 @@ struct FeatureTally {
 };
 std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdicts);
 
-/// All of them, as if they were one feature.
+/// Tally of all scenes, as of one feature.
 FeatureTally whole_suite(std::span<const check::SceneVerdict> verdicts);
 
 /// Lines for people: a row per feature, then why scenes are not drawn and known faults that draw what is wrong, the
 /// most frequent first.
 std::string conformance_text(std::span<const check::SceneVerdict> verdicts);
-/// The same as a section for a CI page.
+/// Text of conformance_text() as a section of a CI page, in Markdown.
 std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts);
 
 }  // namespace plumbline::report

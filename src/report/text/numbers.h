@@ -22,8 +22,7 @@ struct Numbers {
   bool empty() const { return values.empty(); }
 };
 
-/// Codes if `scale` is above 0 and each value is one, or no more than `off` of a code from one in the range; else
-/// floats.
+/// Codes if `scale` is above 0 and each value is in the range of codes and within `off` [codes] of one; else floats.
 Numbers numbers_of(const Plane<glm::vec4>& plane, double scale, double off = 0.01);
 Numbers numbers_of(const Plane<double>& plane, double scale, double off = 0.01);
 /// Whole numbers.
