@@ -59,8 +59,7 @@ TEST_F(Fragments, CoveredOnAnEdgeIsOpenToADeclaredTieRule) {
     return out;
   };
   const Conventions conventions;
-  EXPECT_TRUE(fails(compare_covered_except_edges(with(7, 3), records, conventions, {0.25, 0.5})))
-      << "of another sample";
+  EXPECT_TRUE(fails(compare_covered_except_edges(with(7, 3), records, conventions, {0.25, 0.5}))) << "other sample";
   for (const bool extra : {true, false}) {
     const auto compare = [&](const Records<double>& other) {
       return extra ? compare_covered_except_edges(other, records, conventions)
