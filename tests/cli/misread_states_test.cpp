@@ -60,6 +60,7 @@ const std::vector<Case> kStates = {{"matrices.depth_range_ignored", "depth_range
                                    {"light.specular_ignored", "light/turned_away"},
                                    {"light.shininess_doubled", "light/sphere_gouraud"},
                                    {"light.shininess_halved", "light/sphere_gouraud"},
+                                   {"light.shininess_halved", "phong/mirror_floor"},
                                    {"light.emission_ignored", "light/turned_away"},
                                    {"light.two_sides_ignored", "light/two_sided_flat"},
                                    {"light.phong_shading_ignored", "phong/reflection"},

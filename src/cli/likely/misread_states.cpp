@@ -191,7 +191,15 @@ bool swap_texels_red_and_blue(Scene& scene) {
 struct MisreadState {
   const char *stage, *name, *says;
   Change change;
+  /// Whether the stage is shade where fragments are lit, and no vertices.
+  bool is_of_light_equation = false;
 };
+
+constexpr bool kOfLightEquation = true;
+
+bool are_fragments_lit_alone(const Scene& scene) {
+  return std::ranges::any_of(scene.draws, is_lit_per_fragment) && std::ranges::none_of(scene.draws, is_lit_per_vertex);
+}
 
 // In the order of the stages.
 std::vector<MisreadState> all_states() {
@@ -209,23 +217,23 @@ std::vector<MisreadState> all_states() {
        of_draws(kNormals<Normals::rescale, Normals::as_they_are>)},
       {"light", "lighting_ignored", "draws are not lit", of_draws([](Draw& d) { return reset(d.lit, false); })},
       {"light", "lights_ignored", "no light shines but the ambient one",
-       [](Scene& s) { return !std::exchange(s.lights, {}).empty(); }},
-      {"light", "ambient_ignored", "no ambient light is added", reset_ambient},
+       [](Scene& s) { return !std::exchange(s.lights, {}).empty(); }, kOfLightEquation},
+      {"light", "ambient_ignored", "no ambient light is added", reset_ambient, kOfLightEquation},
       {"light", "ambient_without_material", "ambient light is not multiplied by the material's ambient colour",
-       of_materials([](Material& m) { return reset(m.ambient, glm::vec4(1, 1, 1, m.ambient.a)); })},
+       of_materials([](Material& m) { return reset(m.ambient, glm::vec4(1, 1, 1, m.ambient.a)); }), kOfLightEquation},
       {"light", "colors_ignored", "meshes' colours are not used: the material's diffuse colour is",
        of_each<&Scene::meshes>([](Mesh& m) { return !std::exchange(m.colors, {}).empty(); })},
       {"light", "point_as_direction", "a point light's position is taken for the direction to the light",
        of_lights(
            [](Light& l) { return !l.spot && l.vector != glm::dvec3(0) && reset(l.kind, Light::Kind::directional); })},
       {"light", "specular_ignored", "there are no highlights",
-       of_materials([=](Material& m) { return reset(m.specular, black); })},
-      {"light", "shininess_doubled", "highlights have twice their shininess", shines_by(2)},
-      {"light", "shininess_halved", "highlights have half their shininess", shines_by(0.5f)},
+       of_materials([=](Material& m) { return reset(m.specular, black); }), kOfLightEquation},
+      {"light", "shininess_doubled", "highlights have twice their shininess", shines_by(2), kOfLightEquation},
+      {"light", "shininess_halved", "highlights have half their shininess", shines_by(0.5f), kOfLightEquation},
       {"light", "emission_ignored", "materials do not shine by themselves",
-       of_materials([=](Material& m) { return reset(m.emission, black); })},
+       of_materials([=](Material& m) { return reset(m.emission, black); }), kOfLightEquation},
       {"light", "two_sides_ignored", "back faces are lit as front faces",
-       [](Scene& s) { return reset(s.light_model.sides, LightModel::Sides::one); }},
+       [](Scene& s) { return reset(s.light_model.sides, LightModel::Sides::one); }, kOfLightEquation},
       {"light", "phong_shading_ignored", "draws are lit at their vertices, not at their fragments",
        of_draws([](Draw& d) { return d.shading == Shading::phong && reset(d.shading, Shading::gouraud); })},
       {"clip", "flat_shading_ignored", "flat triangles have the colours of all corners",
@@ -360,7 +368,9 @@ std::vector<KnownFault> misread_states(const Scene& scene) {
   std::vector<KnownFault> all = misread_states();
   for (std::size_t i = 0; i < states.size(); ++i) {
     Scene changed = scene;
-    if (states[i].change(changed)) out.push_back(std::move(all[i]));
+    if (!states[i].change(changed)) continue;
+    if (states[i].is_of_light_equation && are_fragments_lit_alone(scene)) all[i].stage = "shade";
+    out.push_back(std::move(all[i]));
   }
   return out;
 }

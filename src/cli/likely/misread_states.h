@@ -10,7 +10,8 @@ namespace plumbline::cli {
 
 /// One fault for each state of the table: "STAGE.STATE_ignored" where a scene is drawn with the state's default.
 std::vector<KnownFault> misread_states();
-/// Faults of misread_states() that change the scene.
+/// Faults of misread_states() that change the scene. The stage of a state that the light equation reads is shade where
+/// fragments are lit, and no vertices.
 std::vector<KnownFault> misread_states(const Scene& scene);
 
 }  // namespace plumbline::cli
