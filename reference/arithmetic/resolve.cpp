@@ -48,7 +48,7 @@ Plane<glm::vec4> resolved_colors(const FrameFormat& frame, const std::vector<Pla
 
 Capture capture_resolved(Renderer& renderer, const Scene& scene, const Request& request) {
   require_budget(scene, plane_bytes(scene), request.memory_budget);
-  const Request planes{.records = {}, .legal = false, .primitives = {}, .pixels = {}};
+  const Request planes{.memory_budget = request.memory_budget, .conventions = request.conventions};
   Capture out;
   for (const Scene& pass : pass_scenes(scene)) {
     Capture drawn = renderer.capture(pass, planes);

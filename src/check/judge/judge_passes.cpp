@@ -221,7 +221,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
       if (!info[Stage::resolve].shows) skip(name, Outcome::unsupported, info[Stage::resolve].reason);
       const bool compared = mine && info[Stage::resolve].shows && !is_referee(info);
       if (!compared) return;
-      theirs[i] = renderer.capture(scene, Request{});
+      theirs[i] = renderer.capture(scene, Request{.conventions = candidate.info().conventions});
       require_samples(scene, theirs[i].samples);
       if (scene.frame.color == ColorFormat::rgba12 && !info.legal) {
         return skip(name, Outcome::unsupported, "asked for 12 bits a channel, OpenGL gives 16");
