@@ -106,6 +106,8 @@ const std::vector<Case> kStates = {{"matrices.depth_range_ignored", "depth_range
                                    {"visibility.alpha_test_stays", "alpha_test/set_and_unset"},
                                    {"visibility.clear_depth_ignored", "depth/clear_z16"},
                                    {"visibility.stencil_ignored", "stencil/funcs"},
+                                   {"visibility.stencil_back_ignored", "stencil/volume"},
+                                   {"visibility.depth_fail_as_fail", "stencil/volume"},
                                    {"visibility.stencil_stays", "stencil/set_and_unset"},
                                    {"merge.blend_ignored", "frame/rgba16_blend"},
                                    {"merge.blend_stays", "blend/set_and_unset"},

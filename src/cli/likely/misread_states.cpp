@@ -320,6 +320,14 @@ std::vector<MisreadState> all_states() {
        [](Scene& s) { return reset(s.frame.clear_depth, 1.0); }},
       {"visibility", "stencil_ignored", "stencil values hide nothing",
        of_draws([](Draw& d) { return reset(d.stencil); })},
+      {"visibility", "stencil_back_ignored", "back faces have the front faces' stencil test",
+       of_draws([](Draw& d) { return d.stencil && reset(d.stencil->back, d.stencil->front); })},
+      {"visibility", "depth_fail_as_fail", "where the depth test fails, the op of a stencil test that fails is taken",
+       of_draws([](Draw& d) {
+         if (!d.stencil) return false;
+         const bool front = reset(d.stencil->front.depth_fail, d.stencil->front.fail);
+         return reset(d.stencil->back.depth_fail, d.stencil->back.fail) || front;
+       })},
       {"visibility", "stencil_stays", "a draw without a stencil test has that of the draw before",
        stays([](Draw & d) -> auto& { return d.stencil; })},
       {"merge", "blend_ignored", "colours replace what is stored, and are not blended with it",

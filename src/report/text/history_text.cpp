@@ -229,8 +229,8 @@ std::string history_text(const Scene& scene, const check::History& history) {
   for (std::size_t i = 0; i < history.samples.size(); ++i) {
     const check::SampleHistory& sample = history.samples[i];
     if (!history.resolved.empty()) {
-      out += fmt::format("\nsample {} of {}: pixel {},{} of pass {}\n", i, history.samples.size(), sample.pixel.x,
-                         sample.pixel.y, sample.pass);
+      out += fmt::format("\nsample {} of 0 to {}: pixel {},{} of pass {}\n", i, history.samples.size() - 1,
+                         sample.pixel.x, sample.pixel.y, sample.pass);
     }
     Block block(scene, sample.renderers, notes);
     out += block.head();
