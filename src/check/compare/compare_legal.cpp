@@ -127,13 +127,18 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
                                 const DeclaredCodes& declared) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("step", why, candidate.depth.size());
+  const LegalAnswer cleared = LegalFold(scene.frame).winners().front();
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
     if (legal.at(x, y).size() > 1) meter.ambiguous();
     const auto answers = answers_of_winner(legal, candidate, x, y);
     if (!candidate.color.empty() && is_cleared(answers)) return;
     const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
     const double middle = declared.rounding ? z + middle_of(*declared.rounding) * step : z;
-    const auto is_of_fragment = [&](const LegalAnswer& a) { return declared.rounding && a.primitive != kBackground; };
+    // A winner that leaves no depth leaves the cleared one, whose rounding no convention says.
+    const auto is_of_fragment = [&](const LegalAnswer& a) {
+      const bool is_cleared_depth = a.z_lo == cleared.z_lo && a.z_hi == cleared.z_hi;
+      return declared.rounding && a.primitive != kBackground && !is_cleared_depth;
+    };
     const auto apart = [&](const LegalAnswer& a) {
       return distance_outside(is_of_fragment(a) ? middle : z, a.z_lo, a.z_hi) / step;
     };

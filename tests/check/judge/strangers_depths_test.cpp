@@ -250,6 +250,28 @@ TEST(LegalDepths, ADepthIsComparedWithTheAnswerThatAllowsIt) {
   EXPECT_TRUE(fails(compared(-1.2, -0.61)));
 }
 
+// A clear depth of 0.7 is 45874.5 codes of 16 bits: either is legal beneath a winner that leaves no depth.
+TEST(LegalDepths, TheClearedOneBeneathAWinnerMayBeEitherCode) {
+  Scene scene;
+  scene.frame.width = scene.frame.height = 1;
+  scene.frame.depth = DepthFormat::z16;
+  scene.frame.clear_depth = 0.7f;
+  const auto compared = [&](double code) {
+    Planes planes;
+    planes.depth = Plane<double>(1, 1, code / 65535);
+    Legal legal;
+    legal.certain = legal.possible = Plane<std::uint32_t>(1, 1, 1);
+    legal.first = {0, 1};
+    legal.answers = {LegalFold(scene.frame).winners().front()};
+    legal.answers[0].primitive = 0;
+    return compare_legal_depth(scene, planes, legal, 0.501,
+                               {.has_codes = true, .rounding = Conventions::Rounding::nearest});
+  };
+  EXPECT_TRUE(passes(compared(45874)));
+  EXPECT_TRUE(passes(compared(45875)));
+  EXPECT_TRUE(fails(compared(45877)));
+}
+
 // Codes of 16 bits are held to their declared rounding though depths are interpolated in float; of 24 bits they are not.
 TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
   const auto outcome = [](DepthFormat format, Conventions::Rounding declared, double off) {
