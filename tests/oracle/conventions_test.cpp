@@ -101,10 +101,11 @@ TEST(OracleConventions, ThinPiecesOfACutDoNotReachBeyondThePlane) {
   EXPECT_EQ(answers.at(6, 20).back().primitive, 0);
 }
 
-// Light of 1/4 that two triangles add: once on the diagonal that they share, whichever of them does.
+// Light of 1/4 that two triangles add: once on the diagonal that they share, whichever of them does. On the border the
+// tie rule says whether one does.
 TEST(OracleConventions, OneOfTwoTrianglesBlendsOnTheirEdge) {
-  const glm::vec3 a(4, 4, 0.5f), c(28, 28, 0.5f);
-  Scene scene = window_scene({{a, glm::vec3(28, 4, 0.5f), c}, {a, c, glm::vec3(4, 28, 0.5f)}});
+  const glm::vec3 a(4.5f, 4.5f, 0.5f), c(28.5f, 28.5f, 0.5f);
+  Scene scene = window_scene({{a, glm::vec3(28.5f, 4.5f, 0.5f), c}, {a, c, glm::vec3(4.5f, 28.5f, 0.5f)}});
   for (glm::vec4& color : scene.meshes[0].colors) color = glm::vec4(0.25f);
   scene.draws[0].merge.blend = Blend{{}, {}, glm::vec4(0)};
   scene.draws[0].merge.blend->rgb.destination = BlendFactor::one;
@@ -112,13 +113,15 @@ TEST(OracleConventions, OneOfTwoTrianglesBlendsOnTheirEdge) {
     C c_of_rule;
     c_of_rule.tie_rule = rule;
     const Legal answers = legal(scene, c_of_rule);
-    return std::array{answers.color_hi(14, 14).r, answers.color_hi(14, 9).r, answers.color_hi(1, 1).r};
+    return std::array{answers.color_hi(14, 14).r, answers.color_hi(14, 9).r, answers.color_hi(1, 1).r,
+                      answers.color_hi(28, 14).r};
   };
   for (const C::TieRule rule : {C::TieRule::any, C::TieRule::left_bottom}) {
     for (const float red : {highest(rule)[0], highest(rule)[1]}) EXPECT_NEAR(red, 0.25f, 1e-5f);
     EXPECT_EQ(highest(rule)[2], 0);
   }
   EXPECT_FALSE(highest(C::TieRule::inclusive)[0] < 0.4f);
+  EXPECT_FALSE(std::isfinite(highest(C::TieRule::any)[3]));
 }
 
 // A renderer that leaves the sides to the raster cuts at the near plane alone: its corners lie far outside the window,

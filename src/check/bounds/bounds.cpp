@@ -246,13 +246,40 @@ double OffsetErrors::of(const WindowTriangle<double>& t) const {
          2 * (factor * m + std::abs(units) * static_cast<double>(r));
 }
 
-double OffsetErrors::by_length(const WindowTriangle<double>& t) const {
-  const Draw* draw = any_ && t.corners == 3 ? draws_.draw(t.primitive) : nullptr;
-  if (draw == nullptr || draw->polygon_offset.factor == 0) return 0;
+namespace {
+
+// Absolute slopes of the depth in x and y.
+glm::dvec2 slopes_of(const WindowTriangle<double>& t) {
   const Vec3<double> z(t.v[0].p_win.z, t.v[1].p_win.z, t.v[2].p_win.z);
   const Barycentrics b = barycentrics(t, t.v[0].p_win.x, t.v[0].p_win.y);
-  const double dx = std::abs(glm::dot(b.d_dx, z)), dy = std::abs(glm::dot(b.d_dy, z));
-  return static_cast<double>(draw->polygon_offset.factor) * (std::hypot(dx, dy) - std::max(dx, dy));
+  return {std::abs(glm::dot(b.d_dx, z)), std::abs(glm::dot(b.d_dy, z))};
+}
+
+}  // namespace
+
+double OffsetErrors::factor_of(const WindowTriangle<double>& t) const {
+  const Draw* draw = any_ && t.corners == 3 ? draws_.draw(t.primitive) : nullptr;
+  return draw == nullptr ? 0 : static_cast<double>(draw->polygon_offset.factor);
+}
+
+double OffsetErrors::by_length(const WindowTriangle<double>& t) const {
+  const double factor = factor_of(t);
+  if (factor == 0) return 0;
+  const glm::dvec2 slopes = slopes_of(t);
+  return factor * (glm::length(slopes) - std::max(slopes.x, slopes.y));
+}
+
+double OffsetErrors::by_grid(const WindowTriangle<double>& t) const {
+  const double factor = factor_of(t);
+  if (factor == 0) return 0;
+  WindowTriangle<double> snapped = t;
+  for (WindowVertex<double>& v : snapped.v) {
+    v.p_win.x = 0.5 + v.snapped.x / double{kSubpixel};
+    v.p_win.y = 0.5 + v.snapped.y / double{kSubpixel};
+  }
+  const glm::dvec2 on_grid = slopes_of(snapped), slopes = slopes_of(t);
+  const double moved = factor * (std::max(on_grid.x, on_grid.y) - std::max(slopes.x, slopes.y));
+  return std::isfinite(moved) ? moved : 0;
 }
 
 double OffsetErrors::of(const Records<double>& r, std::int32_t primitive, int x, int y) const {

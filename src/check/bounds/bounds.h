@@ -83,8 +83,13 @@ class OffsetErrors {
   /// Offset with the slope as the length of the depth's gradient, minus the offset with the slope as the gradient's
   /// larger component; both are legal (OpenGL 2.1 spec 3.5.5) [window z].
   double by_length(const WindowTriangle<double>& triangle) const;
+  /// Offset with the slope of the plane through the snapped corners, minus that through the corners as they are
+  /// [window z]; 0 where either has no area.
+  double by_grid(const WindowTriangle<double>& triangle) const;
 
  private:
+  double factor_of(const WindowTriangle<double>& triangle) const;
+
   DrawIndex draws_;
   Conventions conventions_;
   bool any_;  // whether any draw has an offset

@@ -211,10 +211,12 @@ TEST(OffsetSlope, OfAStrangerIsTheGradientsLengthOrItsLargerComponent) {
   const Scene scene = suite_scene("polygon_offset/decals_z24");
   const Records<double> ours = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()}).records;
   const OffsetErrors offsets(scene);
+  bool by_grid = false;
   const auto differing = [&](double share, double from_origin) {
     Records<double> theirs = ours;
     for (std::size_t i = 0; i < theirs.depth.size(); ++i) {
-      const double moved = share * offsets.by_length(theirs.triangles[theirs.covered[i].triangle]);
+      const WindowTriangle<double>& t = theirs.triangles[theirs.covered[i].triangle];
+      const double moved = share * (by_grid ? offsets.by_grid(t) : offsets.by_length(t));
       theirs.depth[i] = depth_in_format(scene.frame.depth, theirs.depth[i] + moved);
     }
     return compare_depth(scene, theirs, ours, 1, {}, from_origin).differing;
@@ -224,6 +226,10 @@ TEST(OffsetSlope, OfAStrangerIsTheGradientsLengthOrItsLargerComponent) {
   EXPECT_GT(differing(1, 0), 100u) << "ours is the larger component";
   EXPECT_GT(differing(2, 1), 100u);
   EXPECT_GT(differing(-1, 1), 100u);
+  by_grid = true;  // of the plane through the snapped corners
+  EXPECT_EQ(differing(1, 1), 0u);
+  EXPECT_GT(differing(1, 0), 0u);
+  EXPECT_GT(differing(60, 1), 0u);
 }
 
 // Of two legal depths, the one counts that is nearest in its own tolerance: 1 step of the background, whose rounding no
