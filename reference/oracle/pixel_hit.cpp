@@ -68,7 +68,7 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   const double corner_error = corner_error_at(site, view.z, clamps);
   const double of_plane = glm::dot(glm::abs(view.slope), weight * site.moved) + weight * corner_error;
   view.half = of_plane + glm::dot(glm::abs(view.slope), glm::dvec2(scene.step));
-  // By the near or far plane, here: cuts are snapped, whatever the plane goes through.
+  // Cuts by the near or far plane are snapped, whatever the plane of the depths goes through.
   const bool not_cut = clamps || (view.z - view.half > 0 && view.z + view.half < 1);
   const bool by_grid = scene.conventions.depth_corners != Conventions::DepthCorners::as_they_are;
   const double half = by_grid || site.may_turn_over(out.hit.certain && not_cut) ? view.half : of_plane;

@@ -196,7 +196,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     for (int c = 0; c < 4; ++c) {
       const double v = a.color(x, y)[c], w = b.color(x, y)[c], clear = cleared_codes(scene.frame, c);
       const double allowed = codes * layers + clear;
-      // Of codes that a logic op combines: operands that are not certain; of others: so many layers that none is wrong.
+      // Codes that no comparison can call wrong: of uncertain operands of a logic op, or of too many blended layers.
       const bool any_code =
           drawn.combined ? !drawn.certain || (drawn.reads_clear_color[c] && clear > 0) : scale > 0 && allowed >= scale;
       if (open || !std::isfinite(bound) || any_code) {

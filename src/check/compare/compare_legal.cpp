@@ -60,7 +60,7 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
               {x, y, -1, "cleared z"}, z, cleared.z_lo);
 }
 
-// How a plane's colours are compared with an answer's.
+// Rule by which a plane's colours are compared with an answer's.
 struct ColorRule {
   StoredColors stored;
   double factor = 1;       // of the answer's bound
@@ -90,8 +90,9 @@ struct ColorRule {
   }
 };
 
-// `at_pixel(meter, x, y)`: adds more values; true: the pixel's colour is not compared. `holds(answer, x, y)`: whether
-// the pixel's other planes fit the answer; if any answer fits, only fitting ones count.
+// Compares each pixel's colour with the nearest legal answer. `at_pixel(meter, x, y)`: adds more values; true: the
+// pixel's colour is not compared. `holds(answer, x, y)`: whether the pixel's other planes fit the answer; if any answer
+// fits, only fitting answers count.
 template <class AtPixel, class Holds>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
                                 const ColorRule& rule, const AtPixel& at_pixel, const Holds& holds) {

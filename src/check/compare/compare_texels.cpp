@@ -47,8 +47,8 @@ class TexturedFragments {
   DrawIndex draws_;
 };
 
-// Rounding error of a level of detail, which shows where texel coordinates hardly change between pixels. Of a foreign
-// candidate in float, as its attributes may be: 4 u of each term from the window's origin, or of values a pixel apart.
+// Rounding error of a level of detail, which shows where texel coordinates hardly change between pixels. A foreign
+// candidate's is that of float: 4 u of each term from the window's origin, or of the values of pixels side by side.
 double lod_rounding(const Records<double>& records, const Covered& c, const Texture& texture, bool is_foreign) {
   const auto& texcoords = records.varyings[Varying::texture].triangles;
   if (c.triangle >= texcoords.size()) return 0;
@@ -76,7 +76,8 @@ TexelRange legal_texels(const Textured& of, double lod_lo, double lod_hi, const 
   return of.st ? math::texel_range(*of.texture, *of.st, lod_lo, lod_hi, rules) : none;
 }
 
-// The same, where the texel's coordinates are computed in float: 4 u of s and of t off (texture_bounds.h).
+// Legal texels as legal_texels() has them, at texel coordinates computed in float: 4 u of s and of t off
+// (texture_bounds.h).
 TexelRange legal_texels_in_float(const Textured& of, double lod_lo, double lod_hi, const math::LevelRules& rules) {
   TexelRange out = legal_texels(of, lod_lo, lod_hi, rules);
   if (!of.st) return out;

@@ -17,8 +17,8 @@ struct Cause {
 
 /// Likely causes. First: causes whose pattern the differences show. Then: of the causes that the referee tries, those
 /// that leave the fewest records unexplained, at most 1 in 50 of the differing records (ties, and what rounding
-/// decides). Both parts are in the order of known_causes.h. Of several causes that leave no record at all none is
-/// named: the one cause "nothing_left" stands for them. Empty without a referee.
+/// decides). Both parts are in the order of known_causes.h. Several causes that leave no record at all are not
+/// named: the one cause "nothing_left" stands for all of them. Empty without a referee.
 std::vector<Cause> likely_causes(const Evidence& evidence);
 
 }  // namespace plumbline::check

@@ -39,8 +39,8 @@ DeclaredCodes declared_codes(const SceneJudgement& c) {
   const auto is_open = [&](std::string_view name) { return std::ranges::find(d.open, name) != d.open.end(); };
   DeclaredCodes out;
   out.has_codes = !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open("depth_format");
-  // In float the product by the largest code is rounded, too: by up to a code of 24 bits, 1/256 of one of 16. Beside
-  // stencil values OpenGL has no 16 bits: codes are made of codes of 24.
+  // The product by the largest code is rounded in float, too: by up to a code of 24 bits, 1/256 of one of 16. Depths of
+  // 16 bits beside stencil values are made of codes of 24, because OpenGL has no such format.
   const FrameFormat& frame = c.scene.frame;
   const bool is_coarse = depth_scale(frame.depth) <= 65535 && frame.stencil == StencilFormat::none;
   const bool is_exact = d.depth_arithmetic == Conventions::DepthArithmetic::in_double && !is_open("depth_arithmetic");

@@ -86,7 +86,7 @@ const Legal* first_legal(const ReferenceCaptures& answers) {
   return first != answers.captures.end() ? &first->legal : nullptr;
 }
 
-// What a drawn scene is judged by, beside the references' captures.
+// Inputs of a scene's judgement, beside the references' captures.
 struct Beside {
   RendererInfo shown;            ///< of the candidate, for this scene
   Capture mine;                  ///< the candidate's
