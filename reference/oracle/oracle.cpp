@@ -236,21 +236,28 @@ void fold_colors(const Scene& scene, const Projected& projected, std::span<const
   constexpr std::size_t kMostChoices = 16;
   legal.color_lo(x, y) = glm::vec4(-kInfinity);
   legal.color_hi(x, y) = glm::vec4(kInfinity);
-  const auto is_open = [](const Hit& hit) { return !hit.certain && hit.alpha_passes; };
-  if (!is_counted && std::ranges::any_of(hits, is_open)) return;
   glm::vec4 least(kInfinity), most(-kInfinity);
-  std::vector<Hit> covering;
-  for (const std::vector<bool>& chosen : choices(hits, kMostChoices)) {
-    covering.clear();
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      if (chosen[i]) covering.push_back(hits[i]);
-    }
+  const auto widen = [&](std::span<const Hit> covering) {
     const std::optional<ColorInterval> color = color_of(scene, projected, covering);
-    if (!color) return;
+    if (!color) return false;
     least = glm::min(least, low(*color));
     most = glm::max(most, high(*color));
+    return true;
+  };
+  const auto is_open = [](const Hit& hit) { return !hit.certain && hit.alpha_passes; };
+  if (std::ranges::none_of(hits, is_open)) {
+    if (!widen(hits)) return;
+  } else if (is_counted) {
+    std::vector<Hit> covering;
+    for (const std::vector<bool>& chosen : choices(hits, kMostChoices)) {
+      covering.clear();
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (chosen[i]) covering.push_back(hits[i]);
+      }
+      if (!widen(covering)) return;
+    }
   }
-  if (least.x > most.x) return;  // too many choices
+  if (least.x > most.x) return;  // open, or too many choices
   legal.color_lo(x, y) = least;
   legal.color_hi(x, y) = most;
 }

@@ -188,11 +188,10 @@ bool reaches(const WindowTriangle<double>& t, int x, int y) {
   const Vec2<double> centre(x + 0.5, y + 0.5);
   const Vec3<double> b = barycentrics(t, centre.x, centre.y).value;
   if (std::min({b.x, b.y, b.z}) >= 0) return true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec2<double> from(t.v[i].p_win), along = Vec2<double>(t.v[(i + 1) % 3].p_win) - from;
-    const double length2 = glm::dot(along, along);
-    const double share = length2 > 0 ? std::clamp(glm::dot(centre - from, along) / length2, 0.0, 1.0) : 0;
-    if (!(glm::distance(centre, from + share * along) > 1)) return true;
+  WindowTriangle<double> edges = t;  // distance_from_line() takes the first edge
+  for (int i = 0; i < 3; ++i) {
+    if (!(distance_from_line(edges, centre.x, centre.y) > 1)) return true;
+    std::rotate(edges.v.begin(), edges.v.begin() + 1, edges.v.end());
   }
   return false;
 }

@@ -48,7 +48,8 @@ class TexturedFragments {
 };
 
 // Rounding error of a level of detail, which shows where texel coordinates hardly change between pixels. A foreign
-// candidate's is that of float: 4 u of each term from the window's origin, or of the values of pixels side by side.
+// candidate's is that of float: 4 u of each term from the window's origin, or of the values of pixels side by side
+// (largest seen of a right renderer: 46 u of lambda, texture/cube).
 double lod_rounding(const Records<double>& records, const Covered& c, const Texture& texture, bool is_foreign) {
   const auto& texcoords = records.varyings[Varying::texture].triangles;
   if (c.triangle >= texcoords.size()) return 0;
@@ -77,7 +78,7 @@ TexelRange legal_texels(const Textured& of, double lod_lo, double lod_hi, const 
 }
 
 // Legal texels as legal_texels() has them, at texel coordinates computed in float: 4 u of s and of t off
-// (texture_bounds.h).
+// (texture_bounds.h; largest seen of a right renderer: the neighbouring texel, texture/borders_at_centres).
 TexelRange legal_texels_in_float(const Textured& of, double lod_lo, double lod_hi, const math::LevelRules& rules) {
   TexelRange out = legal_texels(of, lod_lo, lod_hi, rules);
   if (!of.st) return out;

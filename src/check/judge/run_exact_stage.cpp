@@ -190,9 +190,11 @@ void run_exact_stage(const SceneJudgement& c, Renderer& referee, Stage stage, co
   Capture made = c.foreign && stage == Stage::merge ? merge_in_float(referee, c.scene, c.candidate, by)
                                                     : run_by_conventions(referee, c.scene, stage, c.candidate, by);
   if (stage == Stage::depth && c.foreign && by.depth_corners == Conventions::DepthCorners::either) {
-    by.depth_corners = Conventions::DepthCorners::snapped;
-    Capture other = run_by_conventions(referee, c.scene, stage, c.candidate, by);
-    if (depths_that_differ(c, other) < depths_that_differ(c, made)) made = std::move(other);
+    if (const std::uint64_t apart = depths_that_differ(c, made); apart > 0) {
+      by.depth_corners = Conventions::DepthCorners::snapped;
+      Capture other = run_by_conventions(referee, c.scene, stage, c.candidate, by);
+      if (depths_that_differ(c, other) < apart) made = std::move(other);
+    }
   }
   compare_stage(c, made, stage, name);
 }

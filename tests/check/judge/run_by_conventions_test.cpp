@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "check/compare/compare_records.h"
-#include "check/judge/rows.h"
 #include "reference/exact/exact.h"
 #include "tests/check/fixtures.h"
+#include "tests/check/judge/row_of.h"
 
 namespace plumbline::check {
 namespace {
@@ -135,18 +135,7 @@ TEST_F(ByConventions, AStrangersSumHalfWayBetweenTwoCodesMayBeEither) {
   candidate.planes = exact->run_stage(scene, Stage::merge, candidate).planes;
   const auto outcome = [&](float code, bool foreign) {
     candidate.planes.color(4, 2).r = code / 255;
-    const Legal none;
-    std::vector<Comparison> out;
-    const Conventions conventions;
-    const SceneJudgement c{.scene = scene,
-                           .candidate = candidate,
-                           .legal = none,
-                           .referee = exact.get(),
-                           .rows = out,
-                           .foreign = foreign,
-                           .conventions = conventions};
-    run_exact_stage(c, *exact, Stage::merge, "exact");
-    return out.at(0).outcome;
+    return row_of_stage(scene, candidate, Stage::merge, {}, foreign).outcome;
   };
   EXPECT_NE(outcome(11, false), Outcome::different);
   EXPECT_EQ(outcome(10, false), Outcome::different) << "ours blends in double";

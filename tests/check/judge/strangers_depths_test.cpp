@@ -11,6 +11,7 @@
 #include "check/judge/rows.h"
 #include "renderers/pipeline_renderer.h"
 #include "tests/check/fixtures.h"
+#include "tests/check/judge/row_of.h"
 #include "tests/check/suite_scenes.h"
 
 namespace plumbline::check {
@@ -133,20 +134,9 @@ TEST(TurnedOver, ARendererThatSnapsNothingInterpolatesBetweenItsOwnCorners) {
   candidate.records.covered = {{.triangle = 0, .x = 39, .y = 43}};
   const auto outcome = [&](double z, bool foreign, int bits) {
     candidate.records.depth = {std::round(z * 16777215) / 16777215};
-    const Legal none;
-    const auto exact = exact::make_exact();
-    std::vector<Comparison> out;
     Conventions conventions;
     conventions.subpixel_bits = bits;
-    const SceneJudgement c{.scene = scene,
-                           .candidate = candidate,
-                           .legal = none,
-                           .referee = exact.get(),
-                           .rows = out,
-                           .foreign = foreign,
-                           .conventions = conventions};
-    run_exact_stage(c, *exact, Stage::depth, "exact");
-    return out.at(0).outcome;
+    return row_of_stage(scene, candidate, Stage::depth, conventions, foreign).outcome;
   };
   EXPECT_NE(outcome(0.3758316779, true, Conventions::kFloat), Outcome::different);
   EXPECT_EQ(outcome(0.3758318, true, Conventions::kFloat), Outcome::different) << "two steps off";
@@ -232,8 +222,8 @@ TEST(OffsetSlope, OfAStrangerIsTheGradientsLengthOrItsLargerComponent) {
   EXPECT_GT(differing(60, 1), 0u);
 }
 
-// Of two legal depths, the one counts that is nearest in its own tolerance: 1 step of the background, whose rounding no
-// convention says, 0.501 of a fragment that is rounded to the nearest code.
+// Tolerances of two legal depths: 1 step of the background, whose rounding no convention says, 0.501 of a fragment that
+// is rounded to the nearest code. The depth counts that is nearest in its own tolerance.
 TEST(LegalDepths, ADepthIsComparedWithTheAnswerThatAllowsIt) {
   Scene scene;
   scene.frame.width = scene.frame.height = 1;
@@ -297,16 +287,10 @@ TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
     Conventions conventions;
     conventions.depth_arithmetic = Conventions::DepthArithmetic::in_float;
     conventions.depth_rounding = declared;
-    std::vector<Comparison> out;
-    const SceneJudgement c{.scene = scene,
-                           .candidate = mine,
-                           .legal = expected.legal,
-                           .referee = exact.get(),
-                           .rows = out,
-                           .foreign = true,
-                           .conventions = conventions};
-    compare_with_legal(c, expected.legal, Stage::depth, "exact");
-    return out.at(0).outcome;
+    const auto judge = [&](const SceneJudgement& c, Renderer&) {
+      compare_with_legal(c, expected.legal, Stage::depth, "exact");
+    };
+    return row_of(scene, mine, conventions, judge).outcome;
   };
   using enum Conventions::Rounding;
   EXPECT_NE(outcome(DepthFormat::z16, nearest, 0.5), Outcome::different);

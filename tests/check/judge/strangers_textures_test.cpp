@@ -3,12 +3,12 @@
 #include <memory>
 #include <string>
 
-#include "check/judge/rows.h"
 #include "reference/arithmetic/texture.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/draw_index.h"
 #include "scene/file/scene_file.h"
 #include "tests/check/fixtures.h"
+#include "tests/check/judge/row_of.h"
 #include "tests/learn/drawn_otherwise.h"
 
 namespace plumbline::check {
@@ -24,21 +24,6 @@ Capture drawn_by(const Scene& scene, decltype(pipeline::Stages::texture) texture
   return pipeline::make_pipeline(stages)->capture(scene, {.records = StageSet::all()});
 }
 
-Comparison row(const Scene& scene, const Capture& candidate, Stage stage, const C& conventions) {
-  const Legal none;
-  const auto exact = exact::make_exact();
-  std::vector<Comparison> out;
-  const SceneJudgement c{.scene = scene,
-                         .candidate = candidate,
-                         .legal = none,
-                         .referee = exact.get(),
-                         .rows = out,
-                         .foreign = true,
-                         .conventions = conventions};
-  run_exact_stage(c, *exact, stage, "exact");
-  return out.at(0);
-}
-
 void lose_levels(Capture& candidate) {
   for (Texel<double>& texel : candidate.records.texels) texel.lod = kNaN;
 }
@@ -46,10 +31,10 @@ void lose_levels(Capture& candidate) {
 // The candidate with its levels of detail, and without, by the declared convention and by OpenGL's.
 void expect_right_if_declared(const Scene& scene, Capture candidate, const C& declared) {
   SCOPED_TRACE(scene.name);
-  EXPECT_EQ(row(scene, candidate, Stage::texture, C()).outcome, Outcome::different);
-  EXPECT_NE(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
+  EXPECT_EQ(row_of_stage(scene, candidate, Stage::texture, C()).outcome, Outcome::different);
+  EXPECT_NE(row_of_stage(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
   lose_levels(candidate);
-  EXPECT_NE(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
+  EXPECT_NE(row_of_stage(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
 }
 
 TEST(StrangersTextures, ALevelOfDetailMayBeApproximatedWhereThatIsDeclared) {
@@ -60,10 +45,12 @@ TEST(StrangersTextures, ALevelOfDetailMayBeApproximatedWhereThatIsDeclared) {
     Capture candidate = drawn_by(scene, test::by_largest_rho);
     expect_right_if_declared(scene, candidate, declared);
     declared.level_of_detail = C::LevelOfDetail::per_square;
-    EXPECT_EQ(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different) << "beyond a square's";
+    EXPECT_EQ(row_of_stage(scene, candidate, Stage::texture, declared).outcome, Outcome::different)
+        << "beyond a square's";
     declared.level_of_detail = C::LevelOfDetail::approximate;
     candidate.records.texels[40].lod += 1.25;
-    EXPECT_EQ(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different) << "beyond OpenGL's limit";
+    EXPECT_EQ(row_of_stage(scene, candidate, Stage::texture, declared).outcome, Outcome::different)
+        << "beyond OpenGL's limit";
   }
 }
 
@@ -81,7 +68,8 @@ TEST(StrangersTextures, EitherLevelIsNearestHalfWayWhereThatIsDeclared) {
   const Capture candidate = drawn_by(scene, test::half_way_up);
   expect_right_if_declared(scene, candidate, declared);
   const Capture ours = drawn_by(scene, pipeline::production_stages().texture);
-  EXPECT_NE(row(scene, ours, Stage::texture, declared).outcome, Outcome::different) << "the finer is either, too";
+  EXPECT_NE(row_of_stage(scene, ours, Stage::texture, declared).outcome, Outcome::different)
+      << "the finer is either, too";
 }
 
 TEST(StrangersTextures, WeightsHaveTheDeclaredBits) {
@@ -91,7 +79,7 @@ TEST(StrangersTextures, WeightsHaveTheDeclaredBits) {
   const Capture candidate = drawn_by(scene, test::weights_of_6_bits);
   expect_right_if_declared(scene, candidate, declared);
   declared.texture_bits = 9;
-  EXPECT_EQ(row(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
+  EXPECT_EQ(row_of_stage(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
 }
 
 TEST(StrangersTextures, APolygonOffsetHasTheDeclaredUnit) {
@@ -101,9 +89,9 @@ TEST(StrangersTextures, APolygonOffsetHasTheDeclaredUnit) {
       pipeline::make_pipeline()->capture(test::with_half_of_offsets(scene), {.records = StageSet::all()});
   C declared;
   declared.offset_unit = {1, 1};
-  EXPECT_EQ(row(scene, candidate, Stage::depth, C()).outcome, Outcome::different);
-  EXPECT_NE(row(scene, candidate, Stage::depth, declared).outcome, Outcome::different);
-  EXPECT_EQ(row(scene, ours, Stage::depth, declared).outcome, Outcome::different);
+  EXPECT_EQ(row_of_stage(scene, candidate, Stage::depth, C()).outcome, Outcome::different);
+  EXPECT_NE(row_of_stage(scene, candidate, Stage::depth, declared).outcome, Outcome::different);
+  EXPECT_EQ(row_of_stage(scene, ours, Stage::depth, declared).outcome, Outcome::different);
 }
 
 // Texels of the candidate's fragments at texture coordinates that are off by a share of themselves.
@@ -127,11 +115,12 @@ TEST(StrangersTextures, TexelCoordinatesMayBeComputedInFloat) {
     const Scene scene = scene_of_suite(name);
     const Capture ours = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
     for (const double share : {3 * kU, -3 * kU})
-      EXPECT_NE(row(scene, sampled_off_by(scene, ours, share), Stage::texture, C()).outcome, Outcome::different);
-    EXPECT_EQ(row(scene, sampled_off_by(scene, ours, 1e-4), Stage::texture, C()).outcome, Outcome::different);
+      EXPECT_NE(row_of_stage(scene, sampled_off_by(scene, ours, share), Stage::texture, C()).outcome,
+                Outcome::different);
+    EXPECT_EQ(row_of_stage(scene, sampled_off_by(scene, ours, 1e-4), Stage::texture, C()).outcome, Outcome::different);
     Capture lost = sampled_off_by(scene, ours, 3 * kU);
     lose_levels(lost);
-    EXPECT_NE(row(scene, lost, Stage::texture, C()).outcome, Outcome::different);
+    EXPECT_NE(row_of_stage(scene, lost, Stage::texture, C()).outcome, Outcome::different);
   }
 }
 
@@ -140,7 +129,7 @@ TEST(StrangersTextures, ALevelOfDetailMayBeComputedInFloat) {
   const auto off_by = [&](double lod) {
     Capture out = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
     for (Texel<double>& texel : out.records.texels) texel.lod += lod;
-    return row(scene, sampled_off_by(scene, out, 0), Stage::texture, C()).outcome;
+    return row_of_stage(scene, sampled_off_by(scene, out, 0), Stage::texture, C()).outcome;
   };
   EXPECT_NE(off_by(16 * kU), Outcome::different);
   EXPECT_EQ(off_by(0.01), Outcome::different);
