@@ -35,6 +35,8 @@ struct Lanes<float> {
   static float load_row(const float* from) { return *from; }
   /// Three floats per lane, lane after lane in memory.
   static Vec3<float> load_threes(const float* from) { return {from[0], from[1], from[2]}; }
+  /// Two integers per lane, each lane's side by side at the address at(lane).
+  static std::array<Int, 2> load_twos(auto at) { return {at(0)[0], at(0)[1]}; }
   /// Four floats per lane, each lane's from its own address.
   static Vec4<float> load_fours(const float* const (&from)[1]) {
     return {from[0][0], from[0][1], from[0][2], from[0][3]};
@@ -173,6 +175,10 @@ inline void stream(std::int64_t value, std::int32_t* to) { *to = static_cast<std
 /// Stores each lane, [0, 255], as one byte.
 inline void store_codes(std::int64_t value, std::uint8_t* to) { *to = static_cast<std::uint8_t>(value); }
 
+/// Stores two integers per lane, lane after lane in memory.
+inline void store_twos(std::int64_t first, std::int64_t second, std::int32_t* to) {
+  store(first, to), store(second, to + 1);
+}
 /// Stores four floats per lane, each lane's at its own address.
 inline void store_fours(const Vec4<float>& values, float* const (&to)[1]) {
   for (int i = 0; i < 4; ++i) to[0][i] = values[i];

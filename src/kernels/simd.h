@@ -262,17 +262,19 @@ inline SimdWide power_of_two(SimdWide n) {
   return {of(biased.low), of(biased.high)};
 }
 
-// Four floats of one lane are one block of 128 bits.
+// Four floats of one lane, or two integers of two lanes, are one block of 128 bits. of_blocks(): block(0), block(4), ...
 inline constexpr hn::FixedTag<float, 4> kBlockFloats{};
-template <class Block>
-FloatVector of_blocks(Block block) {
+inline constexpr hn::FixedTag<std::int32_t, 4> kBlockInts{};
+inline constexpr hn::FixedTag<std::int32_t, 2> kTwoInts{};
+template <class Tag, class Block>
+[[gnu::always_inline]] inline hn::Vec<Tag> of_blocks(Tag all, Block block) {
   if constexpr (kWidth == 4) {
     return block(0);
   } else if constexpr (kWidth == 8) {
-    return hn::Combine(kFloats, block(4), block(0));
+    return hn::Combine(all, block(4), block(0));
   } else {
-    return hn::Combine(kFloats, hn::Combine(kHalfFloats, block(12), block(8)),
-                       hn::Combine(kHalfFloats, block(4), block(0)));
+    constexpr hn::Half<Tag> half{};
+    return hn::Combine(all, hn::Combine(half, block(12), block(8)), hn::Combine(half, block(4), block(0)));
   }
 }
 
@@ -287,6 +289,9 @@ inline Vec4<Simd> transposed(const Vec4<Simd>& in) {
           pairs(hn::InterleaveUpper(kDoubles, wide(low), wide(low2))),
           pairs(hn::InterleaveLower(kDoubles, wide(high), wide(high2))),
           pairs(hn::InterleaveUpper(kDoubles, wide(high), wide(high2)))};
+}
+inline void store_twos(SimdInt first, SimdInt second, std::int32_t* to) {
+  hn::StoreInterleaved2(first.v, second.v, kInts, to);
 }
 [[gnu::always_inline]] inline void store_fours(const Vec4<Simd>& values, float* const (&to)[kWidth]) {
   const Vec4<Simd> rows = transposed(values);
@@ -334,16 +339,25 @@ struct LanesOfSimd {
   static Int load(const std::uint32_t* from) { return load(reinterpret_cast<const std::int32_t*>(from)); }
   static Int load(const std::uint8_t* from) { return hn::PromoteTo(kInts, hn::LoadU(kBytes, from)); }
   static Simd load_row(const float* from) {
-    return of_blocks([&](int lane) { return hn::LoadU(kBlockFloats, from + lane * kBlock); });
+    return of_blocks(kFloats, [&](int lane) { return hn::LoadU(kBlockFloats, from + lane * kBlock); });
   }
   static Vec3<Simd> load_threes(const float* from) {
     Vec3<Simd> out;
     hn::LoadInterleaved3(kFloats, from, out.x.v, out.y.v, out.z.v);
     return out;
   }
+  [[gnu::always_inline]] static std::array<Int, 2> load_twos(auto at) {
+    const auto block = [&](int lane) {
+      const auto two = [&](int of) { return hn::LoadU(kTwoInts, at(of)); };
+      return hn::Combine(kBlockInts, two(lane + 1), two(lane));
+    };
+    const IntVector low = of_blocks(kInts, [&](int lane) { return block(lane / 2); }),
+                    high = of_blocks(kInts, [&](int lane) { return block(kHalf + lane / 2); });
+    return {Int(hn::ConcatEven(kInts, high, low)), Int(hn::ConcatOdd(kInts, high, low))};
+  }
   [[gnu::always_inline]] static Vec4<Simd> load_fours(const float* const (&from)[kWidth]) {
     const auto row = [&](int i) {
-      return of_blocks([&](int lane) { return hn::LoadU(kBlockFloats, from[lane + i]); });
+      return of_blocks(kFloats, [&](int lane) { return hn::LoadU(kBlockFloats, from[lane + i]); });
     };
     return transposed({Simd(row(0)), Simd(row(1)), Simd(row(2)), Simd(row(3))});
   }

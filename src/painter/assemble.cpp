@@ -14,7 +14,7 @@ namespace {
 
 class Assembler {
  public:
-  Assembler(Chunk& chunk, const Painting& painting) : chunk_(chunk), painting_(painting), vertices_(painting.vertices) {
+  Assembler(Chunk& chunk, const Painting& painting) : chunk_(chunk), painting_(painting), snapped_(painting.snapped) {
     chunk.draws.clear();
     chunk.count = 0;
     chunk.any_long_edge = false;
@@ -26,11 +26,11 @@ class Assembler {
     boxes_ = room_for(chunk_.count + more, chunk_.boxes);
   }
 
-  // A triangle (filled, or its edges or corners), line or point; `v`: indices of vertices_.
+  // A triangle (filled, or its edges or corners), line or point; `v`: indices of snapped_.
   void add_primitive(const Draw& draw, Topology topology, const std::uint32_t (&v)[3]) {
     if (topology == Topology::points) return add_point(draw, v[0], true);
     if (topology == Topology::lines) return add_line(draw, v[0], v[1], true);
-    const auto snapped = [&](std::size_t i) { return glm::i64vec2(vertices_[v[i]].snapped); };
+    const auto snapped = [&](std::size_t i) { return glm::i64vec2(snapped_[v[i]]); };
     const glm::i64vec2 q = snapped(1) - snapped(0), r = snapped(2) - snapped(0);
     const auto add_filled = [&](std::size_t, bool front) { add({{v[1], v[2], v[0]}, front, 3, 1}, 0); };
     visit_polygon(
@@ -87,8 +87,8 @@ class Assembler {
   }
 
   void add(const PaintTriangle& triangle, int reach) {
-    const glm::ivec2 p = vertices_[triangle.corner[0]].snapped, q = vertices_[triangle.corner[1]].snapped,
-                     r = vertices_[triangle.corner[2]].snapped;
+    const auto& [a, b, c] = triangle.corner;
+    const glm::ivec2 p = snapped_[a], q = snapped_[b], r = snapped_[c];
     const auto [x_min, x_max] = std::minmax({p.x, q.x, r.x});
     const auto [y_min, y_max] = std::minmax({p.y, q.y, r.y});
     // The pixels whose centres the box holds (coverage.h, pixel_bounds).
@@ -107,7 +107,7 @@ class Assembler {
 
   Chunk& chunk_;
   const Painting& painting_;
-  const PaintVertex* vertices_;
+  const glm::ivec2* snapped_;
   PaintTriangle* triangles_ = nullptr;
   TileBox* boxes_ = nullptr;
   glm::ivec2 least_, most_;  // of the samples

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
+#include <cstring>
 
 #include "painter/assemble.h"
 
@@ -16,7 +16,7 @@ void cull_triangles(const Painting& painting, const AssemblyWork& work, std::spa
   using I = Int<R>;
   constexpr std::size_t kLanes = Lanes<R>::width;
   const std::size_t count = corners.size();
-  const PaintVertex* const vertices = painting.vertices + work.range.first_vertex;
+  const glm::ivec2* const positions = painting.snapped + work.range.first_vertex;
   const auto [low_sample, high_sample] = painting.sample_bounds();
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
   const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
@@ -29,12 +29,8 @@ void cull_triangles(const Painting& painting, const AssemblyWork& work, std::spa
     }
     I x[3], y[3];
     for (int k = 0; k < 3; ++k) {
-      const float* from[kLanes];
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        from[lane] = reinterpret_cast<const float*>(&vertices[(&of_lane[lane].x)[k]].snapped);
-      }
-      const Vec4<R> four = Lanes<R>::load_fours(from);
-      x[k] = as_int(four.x), y[k] = as_int(four.y);
+      const auto [of_x, of_y] = Lanes<R>::load_twos([&](int lane) { return &positions[(&of_lane[lane].x)[k]].x; });
+      x[k] = of_x, y[k] = of_y;
     }
     const I x_min = least(x), x_max = most(x), y_min = least(y), y_max = most(y);
     // Products of differences up to 2^22 (16384 pixels) are exact in double, and so is their difference.
@@ -49,12 +45,14 @@ void cull_triangles(const Painting& painting, const AssemblyWork& work, std::spa
     I kept(0);
     if (work.draw->cull != Cull::back) kept = select(drawn & back, I(static_cast<int>(Kept::back)), kept);
     if (work.draw->cull != Cull::front) kept = select(drawn & front, I(static_cast<int>(Kept::front)), kept);
-    alignas(64) std::int32_t kept_of[kLanes], box_of[kLanes];
-    store(kept, kept_of);
     const I low = shifted_right<6>(x0) | shifted_left<8>(shifted_right<6>(y0));
-    store(low | shifted_left<16>(shifted_right<6>(x1)) | shifted_left<24>(shifted_right<6>(y1)), box_of);
-    for (std::size_t lane = 0; lane < std::min(kLanes, count - i); ++lane) {
-      to[i + lane] = {static_cast<Kept>(kept_of[lane]), std::bit_cast<TileBox>(box_of[lane])};
+    const I box = low | shifted_left<16>(shifted_right<6>(x1)) | shifted_left<24>(shifted_right<6>(y1));
+    alignas(64) std::int32_t results[2 * kLanes];  // in the layout of KeptTriangle
+    store_twos(kept, box, results);
+    if (count - i >= kLanes) {
+      std::memcpy(to + i, results, sizeof(results));
+    } else {
+      std::memcpy(to + i, results, (count - i) * sizeof(KeptTriangle));
     }
   }
 }

@@ -24,7 +24,7 @@ inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTr
   WindowTriangle out{{}, 0, t.front, t.corners, t.width};
   for (std::size_t k = 0; k < 3; ++k) {
     const PaintVertex& v = painting.vertices[t.corner[k]];
-    out.v[k] = {v.p_win, v.inv_w, v.snapped};
+    out.v[k] = {v.p_win, v.inv_w, painting.snapped[t.corner[k]]};
   }
   return out;
 }

@@ -39,7 +39,7 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
     }
     int pixels[kLanes] = {}, most = 0;
     for (int lane = 0; lane < lines.count; ++lane) {
-      const auto end = [&](int k) { return glm::i64vec2(lines.corner[k][lane]->snapped) - origin; };
+      const auto end = [&](int k) { return glm::i64vec2(painting.snapped[lines.corner[k][lane]]) - origin; };
       int& n = pixels[lane];
       raster::visit_diamond_exit_line(end(0), end(1), glm::ivec2(kTile),
                                       [&](glm::ivec2 p) { pixel_of[n++][lane] = p.x + kTile * p.y; });
@@ -47,8 +47,8 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
     }
     if (most == 0) continue;
     std::copy_n(lines.corner[0], kLanes, lines.corner[2]);
-    const CornerLanes<R> corners = load_corners<R>(lines.corner);
-    set_up_colors<R>(lines.corner, draw.flat(), lines.lanes);
+    const CornerLanes<R> corners = load_corners<R>(painting, lines.corner);
+    set_up_colors<R>(painting, lines.corner, draw.flat(), lines.lanes);
     set_up_planes<R>(planes_of_lines<R>(corners.p_win, {tile.x0, tile.y0}), corners.p_win, painting, lines.lanes);
     PixelsOfLanes<R, PixelColors::own, false, kTile> values(lines.lanes, 0);
     for (int k = 0; k < most; ++k) {

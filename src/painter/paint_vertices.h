@@ -8,7 +8,7 @@
 
 namespace plumbline::pipeline {
 
-static_assert(offsetof(PaintVertex, snapped) == 16 && offsetof(PaintVertex, color) == 24 && sizeof(PaintVertex) == 40);
+static_assert(offsetof(PaintVertex, color) == 16 && sizeof(PaintVertex) == 32);
 
 /// Bits of the violated planes, in the order of view_volume(). For finite coordinates, x <= w is clip()'s w - x >= 0.
 template <class R>
@@ -49,7 +49,7 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
                          select(drawable, Int<R>(0), Int<R>(kNotDrawable));
   store_codes(outside, work.outside + i);
   // round((win - 1/2) 256), as snap() has it: 128 is even, and the product exact.
-  const auto snapped = [&](R win) { return as_float(nearest_int(select(drawable, win, R(0)) * R(256)) - Int<R>(128)); };
+  const auto snapped = [&](R win) { return nearest_int(select(drawable, win, R(0)) * R(256)) - Int<R>(128); };
 
   Vec3<R> n(R(0));
   Vec4<R> p_eye(R(0));
@@ -81,8 +81,7 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
     });
   }
   store_beside({p_win, inv_w}, [&](std::size_t k) { return &work.out[k].p_win.x; });
-  store_beside({snapped(p_win.x), snapped(p_win.y), color.r, color.g},
-               [&](std::size_t k) { return reinterpret_cast<float*>(&work.out[k].snapped); });
+  store_twos(snapped(p_win.x), snapped(p_win.y), &work.snapped[i].x);
   store_beside(color, [&](std::size_t k) { return &work.out[k].color.r; });
   return outside;
 }

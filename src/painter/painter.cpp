@@ -142,6 +142,7 @@ struct Painter::Memory {
   ScalarGeometry scalar_geometry;
   std::vector<Chunk> chunks;
   std::vector<PaintVertex> vertices;
+  std::vector<glm::ivec2> snapped;
   std::vector<std::uint8_t> outside;
   std::vector<Varying> carried_varyings;  // of any draw's fragments
   std::array<std::vector<Vec4<float>>, kVaryings> varyings;
@@ -182,6 +183,7 @@ void Painter::Memory::run_vertices(const Scene& scene) {
   assembly.clear();
   vertex_count = ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count;
   PaintVertex* to = room_for(vertex_count, vertices);
+  glm::ivec2* snapped_to = room_for(vertex_count, snapped);
   std::uint8_t* outside_of = room_for(vertex_count, outside);
   carried(scene, carried_varyings);
   std::erase_if(carried_varyings, is_back);
@@ -209,6 +211,7 @@ void Painter::Memory::run_vertices(const Scene& scene) {
     work.color = glm::clamp(draw.material.diffuse, 0.0f, 1.0f);
     work.wants_normals = is_lit_per_vertex(draw) || carries(scene, draw, Varying::normal);
     work.out = to + range.first_vertex;
+    work.snapped = snapped_to + range.first_vertex;
     work.outside = outside_of + range.first_vertex;
     for (const Varying v : kAllVaryings) {
       const auto i = index_of(v);
@@ -233,12 +236,13 @@ void Painter::Memory::run_others(const Scene& scene) {
   others = {triangles, static_cast<std::uint32_t>(vertex_count)};
   if (triangles.empty()) return;
   const std::size_t all = vertex_count + 3 * triangles.size();
-  room_for(all, vertices);
+  room_for(all, vertices), room_for(all, snapped);
   for (const Varying v : carried_varyings) room_for(all, varyings[index_of(v)]);
   for (std::size_t to = vertex_count, i = 0; to < all; ++to, ++i) {
     const ShadedTriangle& t = triangles[i / 3];
     const WindowVertex& v = t.v[i % 3];
-    vertices[to] = {v.p_win, v.inv_w, v.snapped, t.attributes[i % 3].color()};
+    vertices[to] = {v.p_win, v.inv_w, t.attributes[i % 3].color()};
+    snapped[to] = v.snapped;
     for (const Varying a : carried_varyings) varyings[static_cast<std::size_t>(a)][to] = t.attributes[i % 3][a];
   }
 }
@@ -246,6 +250,7 @@ void Painter::Memory::run_others(const Scene& scene) {
 // Stages 3 and 4, in chunks.
 void Painter::Memory::run_triangles() {
   painting.vertices = vertices.data();
+  painting.snapped = snapped.data();
   for (std::size_t i = 0; i < kVaryings; ++i) painting.varyings[i] = varyings[i].data();
   const std::uint32_t primitives = ranges.empty() ? 0 : ranges.back().first_primitive + ranges.back().primitive_count;
   constexpr std::uint32_t kFewest = 4096;

@@ -44,11 +44,11 @@ template <class I>
 inline constexpr std::uint8_t kNotFinite = 1 << 6;    ///< bit 6: a coordinate is not finite
 inline constexpr std::uint8_t kNotDrawable = 1 << 7;  ///< bit 7: outside the drawable window range (geometry.h)
 
-/// Vertex in window space, in the layout that lanes load and store: 40 bytes, floats and 32-bit integers.
-struct PaintVertex {
+/// Vertex in window space, in the layout that lanes load and store: eight floats. Its snapped position stands beside it
+/// (Painting::snapped), for culling reads nothing else.
+struct alignas(32) PaintVertex {
   Vec3<float> p_win;
   float inv_w;
-  glm::ivec2 snapped;
   Vec4<float> color;
 };
 
@@ -64,6 +64,7 @@ struct VertexWork {
   Reflectance<float> reflectance, secondary;  ///< of the front's LitParts
   glm::vec4 color;                            ///< unlit vertices without colours, [0,1]
   PaintVertex* out;
+  glm::ivec2* snapped;                           ///< snapped positions [1/256 pixel]
   std::uint8_t* outside;                         ///< outcodes
   std::array<Vec4<float>*, kVaryings> varyings;  ///< null: not carried
 };
@@ -114,6 +115,7 @@ struct Painting {
   std::span<const glm::ivec2> samples;
   int columns, rows;  ///< of tiles
   const PaintVertex* vertices;
+  const glm::ivec2* snapped;                           ///< beside vertices: snapped positions [1/256 pixel]
   std::array<const Vec4<float>*, kVaryings> varyings;  ///< beside vertices
   std::span<const Chunk> chunks;
   std::span<const PaintDraw> draws;

@@ -110,9 +110,9 @@ struct LaneTriangles {
   }
 };
 
-/// Vertices of the lanes' triangles: [corner][lane].
+/// Corners of the lanes' triangles, as indices of Painting::vertices: [corner][lane].
 template <class R>
-using CornersOfLanes = const PaintVertex* [3][Lanes<R>::width];
+using CornersOfLanes = std::uint32_t[3][Lanes<R>::width];
 
 template <class R>
 struct CornerLanes {
@@ -120,20 +120,19 @@ struct CornerLanes {
   Int<R> snapped_x[3], snapped_y[3];
 };
 template <class R>
-[[gnu::always_inline]] inline Vec4<R> load_corner(const PaintVertex* const (&corner)[Lanes<R>::width], auto member) {
+[[gnu::always_inline]] inline Vec4<R> load_corner(const std::uint32_t (&corner)[Lanes<R>::width], auto member) {
   const float* from[Lanes<R>::width];
   for (int lane = 0; lane < Lanes<R>::width; ++lane) from[lane] = member(corner[lane]);
   return Lanes<R>::load_fours(from);
 }
 template <class R>
-[[gnu::always_inline]] inline CornerLanes<R> load_corners(const CornersOfLanes<R>& corner) {
-  const auto p_win = [](const PaintVertex* v) { return &v->p_win.x; };
-  const auto snapped = [](const PaintVertex* v) { return reinterpret_cast<const float*>(&v->snapped); };
+[[gnu::always_inline]] inline CornerLanes<R> load_corners(const Painting& painting, const CornersOfLanes<R>& corner) {
+  const auto p_win = [&](std::uint32_t vertex) { return &painting.vertices[vertex].p_win.x; };
   CornerLanes<R> out;
   for (int k = 0; k < 3; ++k) {
     out.p_win[k] = load_corner<R>(corner[k], p_win);
-    const Vec4<R> four = load_corner<R>(corner[k], snapped);
-    out.snapped_x[k] = as_int(four.x), out.snapped_y[k] = as_int(four.y);
+    const auto [x, y] = Lanes<R>::load_twos([&](int lane) { return &painting.snapped[corner[k][lane]].x; });
+    out.snapped_x[k] = x, out.snapped_y[k] = y;
   }
   return out;
 }
@@ -162,9 +161,9 @@ template <class R>
 
 /// Sets the colours of `out`; returns the lanes whose corners have the same alpha.
 template <class R, int kSampleCount>
-[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat,
-                                                    LaneTriangles<R, kSampleCount>& out) {
-  const auto color_of = [](const PaintVertex* v) { return &v->color.r; };
+[[gnu::always_inline]] inline Mask<R> set_up_colors(const Painting& painting, const CornersOfLanes<R>& corner,
+                                                    bool flat, LaneTriangles<R, kSampleCount>& out) {
+  const auto color_of = [&](std::uint32_t vertex) { return &painting.vertices[vertex].color.r; };
   const AttributeLanes<R> color = attribute_lanes<R>(corner, flat, color_of);
   for (int c = 0; c < 4; ++c) {
     store(color.value0[c], out.color[0][c]);
@@ -205,7 +204,7 @@ template <class R, int kSampleCount>
   out.gradients.any = draw.surface != nullptr && draw.surface->texture;
   if (!out.gradients.any) return;
   const Vec4<float>* const column = painting.varyings[index_of(Varying::texture)];
-  const auto texcoords = [&](const PaintVertex* v) { return &column[v - painting.vertices].x; };
+  const auto texcoords = [&](std::uint32_t vertex) { return &column[vertex].x; };
   Wide<R> of_s[3], of_t[3], inv_w[3];
   for (int k = 0; k < 3; ++k) {
     const Vec4<R> st = load_corner<R>(corner[k], texcoords);
@@ -221,8 +220,8 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
                   const PaintDraw& draw, glm::ivec2 tile, LaneTriangles<R, kSampleCount>& out) {
   using I = Int<R>;
   using W = Wide<R>;
-  const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
-  const Mask<R> same_alpha = set_up_colors<R>(corner, draw.flat(), out);
+  const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(painting, corner);
+  const Mask<R> same_alpha = set_up_colors<R>(painting, corner, draw.flat(), out);
   const R face = Lanes<R>::load(facing);
   const PlaneCorners<W> through =
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,

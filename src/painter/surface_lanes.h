@@ -44,7 +44,7 @@ class SurfaceLanes {
         color_(colors_of<R>(lanes)) {
     for (const Varying v : surface_.carried) {
       const Vec4<float>* const column = painting.varyings[index_of(v)];
-      const auto value_of = [&](const PaintVertex* vertex) { return &column[vertex - painting.vertices].x; };
+      const auto value_of = [&](std::uint32_t vertex) { return &column[vertex].x; };
       varyings_[index_of(v)] = attribute_lanes<R>(corner, draw.flat() && is_lit(v), value_of);
     }
   }

@@ -132,7 +132,7 @@ class LanesOfRun {
     count = static_cast<int>(std::min(kLanes, run_.numbers.size() - begin_));
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const PaintTriangle& t = in_lane(lane);
-      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = painting_.vertices + t.corner[k];
+      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = t.corner[k];
     }
     return true;
   }
@@ -156,7 +156,7 @@ class LanesOfRun {
   bool fits(int lane) const { return (lanes.fitting >> lane & 1u) != 0; }
   bool all_fit() const { return lanes.fitting == ~0u >> (32 - kLanes); }
 
-  const PaintVertex* corner[3][Lanes<R>::width];
+  std::uint32_t corner[3][Lanes<R>::width];  ///< CornersOfLanes
   LaneTriangles<R, kSampleCount> lanes;
   int count = 0;  ///< number of lanes that hold a primitive
 

@@ -56,6 +56,7 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
   const auto tiles = static_cast<std::size_t>(painting.columns * painting.rows);
   const auto count = static_cast<std::uint32_t>(triangles.size());
   std::vector<PaintVertex> vertices;
+  std::vector<glm::ivec2> snapped;
   std::array<Chunk, 1> chunk;
   PaintTriangle* of_chunk = room_for(count, chunk[0].triangles);
   std::uint32_t* numbers = room_for(count * tiles, chunk[0].numbers);
@@ -63,14 +64,15 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
     of_chunk[i] = {{3 * i, 3 * i + 1, 3 * i + 2}, triangles[i].front, 3, 1};
     for (std::size_t k = 0; k < 3; ++k) {
       const WindowVertex& v = triangles[i].v[k];
-      vertices.push_back({v.p_win, v.inv_w, v.snapped, triangles[i].attributes[k].color()});
+      vertices.push_back({v.p_win, v.inv_w, triangles[i].attributes[k].color()});
+      snapped.push_back(v.snapped);
     }
     for (std::size_t t = 0; t < tiles; ++t) numbers[t * count + i] = i;
   }
   for (std::size_t t = 0; t <= tiles; ++t) chunk[0].first.push_back(static_cast<std::uint32_t>(t * count));
   chunk[0].draws = {{0, count}};
   const PaintDraw draws[] = {{&draw, depth_state(draw, format.depth, false), nullptr, kernel}};
-  painting.vertices = vertices.data();
+  painting.vertices = vertices.data(), painting.snapped = snapped.data();
   painting.chunks = chunk;
   painting.draws = draws;
   Frame frame(format);
@@ -166,13 +168,13 @@ TEST(SimdTargets, PaintRandomTriangles) {
 TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
   std::mt19937 random(9);
   std::vector<glm::uvec3> corners(501);
-  std::vector<PaintVertex> vertices(300);
+  std::vector<glm::ivec2> snapped(300);
   const auto any = [&](std::uint32_t of) { return static_cast<std::uint32_t>(random() % of); };
   for (const float size : {1.0f, 70.0f, 3000.0f, 8192.0f}) {
     std::uniform_real_distribution<float> place(-size, size);
-    for (auto& v : vertices) {
-      v.p_win = {64 + place(random), 64 + (any(5) == 0 ? 0.5f : place(random)), 0.5f};
-      v.snapped = {snap(v.p_win.x), snap(v.p_win.y)};
+    for (glm::ivec2& s : snapped) {
+      const float x = 64 + place(random), y = 64 + (any(5) == 0 ? 0.5f : place(random));
+      s = {snap(x), snap(y)};
     }
     for (auto& c : corners) c = {any(300), any(300), any(9) == 0 ? c[1] : any(300)};
     for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
@@ -183,17 +185,14 @@ TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
         Painting painting{};
         painting.format.width = 700, painting.format.height = 300;
         painting.samples = samples;
-        painting.vertices = vertices.data();
+        painting.snapped = snapped.data();
         for (const SimdTarget& target : simd_targets()) {
           std::vector<KeptTriangle> known(corners.size());
           target.cull(painting, {&draw, nullptr, {}, 0, nullptr, 0}, corners, known.data());
           for (std::size_t i = 0; i < corners.size(); ++i) {
             const glm::uvec3 c = corners[i];
             WindowTriangle t;
-            for (std::size_t k = 0; k < 3; ++k) {
-              const PaintVertex& v = vertices[c[static_cast<int>(k)]];
-              t.v[k] = {v.p_win, v.inv_w, v.snapped};
-            }
+            for (std::size_t k = 0; k < 3; ++k) t.v[k].snapped = snapped[c[static_cast<int>(k)]];
             const std::int64_t area = snapped_area(t);
             const PixelBounds low = pixel_bounds(as_seen_from(t, most)), high = pixel_bounds(as_seen_from(t, least));
             const int x0 = std::max(low.x0, 0), x1 = std::min(high.x1, 700) - 1;
