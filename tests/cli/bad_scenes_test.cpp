@@ -24,7 +24,7 @@ const std::string kPly =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n";
 
-/// What the scenes of the table refer to; the scene's folder is "group".
+/// Files that the table's scenes name; the scene's folder is "group".
 const std::map<std::string, std::string> kFiles = {
     {"outside.obj", kTriangle + "f 1 2 3\n"},
     {"outside.part.json", "{}"},
@@ -92,7 +92,7 @@ class BadScenes : public testing::Test {
     std::ofstream(root_ / name, std::ios::binary) << text;
     return root_ / name;
   }
-  /// What is said of the scene, "@" for the folder of all; "none" if it is read.
+  /// Message about the scene, "@" for the folder of all; "none" if it is read.
   std::string message(const fs::path& file) const {
     try {
       load_scene(file, {.asset_folders = {root_ / "assets"}});
@@ -145,6 +145,7 @@ TEST_F(BadScenes, OddBytesAreRefused) {
   refused(std::string("{\0}", 3), at_top + "JSON, found a NUL byte in line 1");
   refused(std::string("{\n}\0 {{{", 8), at_top + "JSON, found a NUL byte in line 2");
   refused(top("\"\\u001b[2J\": 1"), "@group/scene.json: at \"/\\u001b[2J\": expected a key among $schema");
+  refused(top("\"\\u009b2J\": 1"), "@group/scene.json: at \"/\\u009b2J\": expected a key among $schema");
   write("group/steers.obj", kTriangle + "\x1b[2J 1 2 3\n");
   EXPECT_NE(message_of(mesh(R"({"file": "steers.obj"})")).find("found \"\\u001b[2J\" in line 4"), std::string::npos);
   refused(std::string(9u << 20, ' '), at_top + "JSON of at most 8388608 bytes, found more");

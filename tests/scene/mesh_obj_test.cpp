@@ -129,6 +129,15 @@ TEST_F(MeshFile, ReadsThirdTextureCoordinates) {
   refuse("vt 0 x", "expected a number that begins with a sign or a digit, found \"x\" in line 4");
 }
 
+TEST_F(MeshFile, ReadsFacesOfOneForm) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n";
+  refused(write(corners + "f 1 2/2 3/3\n"), "expected corners with v as the face's first has, found \"2/2\" in line 8");
+  refused(write(corners + "f 1/1 2 3\n"), "expected corners with v vt as the face's first has, found \"2\" in line 8");
+  refused(write(corners + "f 1/1/1 2//1 3/3/1\n"), "with v vt vn as the face's first has, found \"2//1\"");
+  const std::vector<MeshPart> parts = load_parts(write(corners + "f 1/1 2/2 3/3\nf 1 2 3\n"));
+  EXPECT_EQ(parts.front().note, "faces with and without vt, up to line 9: texture coordinates without are 0");
+}
+
 TEST_F(MeshFile, RefusesIndicesOfWhatIsNotThere) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
   EXPECT_NO_THROW(load_parts(write(corners + "f 1/1/1 2/1/1 3/-1/-1\n")));

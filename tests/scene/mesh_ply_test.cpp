@@ -87,6 +87,16 @@ TEST_F(MeshFile, RefusesPly) {
   refuse(ply(kPlyVertices, "3 0 1 2 3\n"), "expected the line's end, found \"3\" in face 0 of 1");
   refuse(ply(kPlyVertices, "3 0 1 7\n"), "expected vertices below 3, found 7 in face 0");
   refuse(ply(kPlyVertices, "3 0 1 -1\n"), "expected vertices below 3");
+  for (const std::string index : {"2.9", "nan", "1e9", "4294967298", "-2147483649"}) {
+    refuse(ply(kPlyVertices, "3 0 1 " + index + "\n"),
+           "expected an integer from -2147483648 to 2147483647 for vertex_indices, found \"" + index +
+               "\" in face 0 of 1");
+  }
+  refuse(ply("0 0 0 1.5 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n", "3 0 1 2\n"),
+         "expected an integer from 0 to 255 for red, found \"1.5\" in vertex 0 of 3");
+  std::string of_floats = ply(kPlyVertices, "3 0 1 2\n");
+  of_floats.replace(of_floats.find("int vertex_ind"), 3, "float");
+  refuse(of_floats, "expected an integer type of PLY for vertex_indices, found \"float\" in the header");
   refuse(ply(kPlyVertices, "2 0 1\n"), "expected faces of three corners or more, found 2 in face 0");
   refuse(ply(kPlyVertices, "4294967295 0 1\n"), "expected a number for vertex_indices");
   refuse(ply("nan 0 0 0 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n", "3 0 1 2\n"), "expected coordinates that are finite");
@@ -150,7 +160,7 @@ TEST_F(MeshFile, RefusesPlyStrips) {
     refused(write(text, "mesh.ply"), expected);
   };
   refuse(ply_of_strips(kBand + "3 0 1 6\n"), "expected vertices below 6 in tristrips, or -1, found 6");
-  refuse(ply_of_strips(kBand + "3 0 1 2.5\n"), "expected an index of a vertex in tristrips, found \"2.5\"");
+  refuse(ply_of_strips(kBand + "3 0 1 2.5\n"), "for vertex_indices, found \"2.5\" in tristrips 0 of 1");
   refuse(ply_of_strips(kBand + "2 0 1\n"), "expected");
   refuse(ply_of_strips(kBand + "4 0 1 2\n"), "expected a number for vertex_indices, found \"\" in tristrips 0 of 1");
   refuse(ply_of_strips(kBand, "ascii", 0), "expected");
@@ -159,7 +169,8 @@ TEST_F(MeshFile, RefusesPlyStrips) {
   };
   const std::string good = ply_of_strips(kBand + "3 0 1 2\n");
   const std::string others = "expected tristrips with one property, a list vertex_indices of integers, found others";
-  refuse(changed(good, "int vertex_indices", "float vertex_indices"), others);
+  refuse(changed(good, "int vertex_indices", "float vertex_indices"),
+         "expected an integer type of PLY for vertex_indices, found \"float\" in the header");
   refuse(changed(good, "list int int vertex_indices", "list int int corners"), others);
   refuse(changed(good, "end_header", "property int flags\nend_header") + "3 0 1 2 0\n", "expected");
   refuse(changed(good, "end_header", "element face 1\nproperty list int int vertex_indices\nend_header") + "3 0 1 2\n",

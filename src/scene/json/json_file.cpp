@@ -22,7 +22,7 @@ std::string plain_text(std::string message) {
   return message;
 }
 
-/// Builds the tree from the parser's events, so that errors of the parser can name their JSON pointer.
+/// Builder of the tree from the parser's events; errors of the parser can so name their JSON pointer.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
   Builder(const std::string& file, JsonValue& root) : file_(file), root_(root) {}

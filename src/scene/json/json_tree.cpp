@@ -11,14 +11,16 @@
 namespace plumbline {
 namespace {
 
-/// Control characters as JSON writes them, so that a message cannot steer a terminal.
+/// Control characters, C0 and C1, as JSON writes them, so that a message cannot steer a terminal. `text`: UTF-8.
 std::string printable(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = [&](std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u; };
+    const bool of_c1 = byte(i) == 0xc2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xa0;
+    if (byte(i) < 0x20 || byte(i) == 0x7f || of_c1)
+      out += fmt::format("\\u{:04x}", byte(of_c1 ? ++i : i));
     else
-      out += c;
+      out += text[i];
   }
   return out;
 }

@@ -128,7 +128,7 @@ Mesh make_globe(int slices, int stacks) {
 
 Mesh make_soup(int triangles, std::uint64_t seed, double extent, double size) {
   Random random(seed);
-  // One call after the other: the order in which a call's arguments are evaluated is the compiler's choice.
+  // Random numbers in separate statements: the compiler chooses the order in which arguments are evaluated.
   const auto cube = [&](double half) {
     glm::dvec3 p;
     for (int k = 0; k < 3; ++k) p[k] = half * random.symmetric();

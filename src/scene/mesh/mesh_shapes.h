@@ -29,7 +29,7 @@ Mesh make_grid(int columns, int rows);
 Mesh make_uv_sphere(int slices, int stacks);
 
 /// make_uv_sphere()'s sphere cut open along the meridian of +z, with texture coordinates: s from 0 to 1 eastwards, t
-/// from the south pole's 0 to the north pole's 1. At a pole each triangle has its own vertex, whose s is that of the
+/// from 0 at the south pole to 1 at the north pole. At a pole each triangle has its own vertex, with the s of the
 /// triangle's middle; one further vertex per pole, with s above 1, belongs to no triangle. slices >= 3, stacks >= 2.
 Mesh make_globe(int slices, int stacks);
 

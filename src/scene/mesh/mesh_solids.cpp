@@ -28,7 +28,7 @@ class Middles {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made_;
 };
 
-/// Adds the 2 `around` triangles between two rings of `around` vertices, which begin at `first` and at `next`. They are
+/// Adds the 2 * `around` triangles between two rings of `around` vertices that begin at `first` and `next`:
 /// counter-clockwise from outside if each ring runs counter-clockwise as seen looking from `next` to `first`.
 void add_band(std::vector<glm::uvec3>& triangles, std::uint32_t first, std::uint32_t next, int around) {
   for (int i = 0; i < around; ++i) {

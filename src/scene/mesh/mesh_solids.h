@@ -19,7 +19,7 @@ Mesh make_icosphere(int subdivisions);
 
 struct TorusKnot {
   int p = 2;          ///< turns around the axis (z)
-  int q = 3;          ///< turns through the hole; p and q have no common divisor, else there would be several curves
+  int q = 3;          ///< turns through the hole; p and q have no common divisor: the knot is one curve
   int segments = 0;   ///< along the knot, >= 3
   int sides = 0;      ///< around the tube, >= 3
   double tube = 0.1;  ///< the tube's radius

@@ -10,9 +10,9 @@ namespace plumbline {
 namespace {
 
 /// Largest distance of a corner from the polygon's plane, in extents (an extent: the diagonal of the bounding box).
-/// Whichever way a polygon is cut, its surface stays within that distance: two cuts differ by at most 2 kFlat extents,
-/// less than a pixel where the polygon is 64 pixels long. The triangles of a square quad lean by at most 4 kFlat,
-/// 1.8 degrees: they all face one way, except where the quad is that close to edge-on.
+/// Any cut of a polygon stays within that distance of the plane: two cuts differ by at most 2 kFlat extents, at most a
+/// pixel where the polygon is 64 pixels long. The triangles of a square quad lean by at most 4 kFlat, 1.8 degrees: all
+/// face one way, unless the quad is that close to edge-on.
 constexpr double kFlat = 1.0 / 128;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }

@@ -1,5 +1,4 @@
-// Check of polygons that are to be cut into triangles: whichever way a valid polygon is cut, the surface looks the
-// same.
+// Check of polygons before they are cut into triangles: every cut of a valid polygon looks the same.
 #pragma once
 
 #include <span>
@@ -9,9 +8,9 @@
 
 namespace plumbline {
 
-/// Description of what is wrong with a polygon, as it follows "found" in a message; empty: the polygon is valid. It
-/// must be flat (each corner within 1/128 of the diagonal of its bounding box from its plane), have an area, and not
-/// cross or touch itself. Three corners or fewer are always valid. Corners must be finite.
+/// Fault of a polygon, in the words that follow "found" in a message; empty: the polygon is valid. A valid polygon is
+/// flat (each corner within 1/128 of the bounding box' diagonal from the plane), has an area, and does not cross or
+/// touch itself. Three corners or fewer are always valid. Corners must be finite.
 std::string polygon_fault(std::span<const glm::dvec3> corners);
 
 }  // namespace plumbline

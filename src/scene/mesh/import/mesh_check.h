@@ -1,6 +1,5 @@
-// Checks of mesh files before assimp reads them. On bad files assimp guesses: it leaves out vertices that it cannot
-// read, makes up the rest of a truncated file, takes hours over false counts, and allocates lengths beyond the file's
-// end.
+// Checks of mesh files before assimp reads them. On bad files assimp guesses: assimp leaves out unreadable vertices,
+// makes up the rest of a truncated file, takes hours over false counts, and allocates lengths beyond the file's end.
 #pragma once
 
 #include <string>
@@ -11,7 +10,7 @@ namespace plumbline {
 /// Checks an OBJ file's text: no statements but v, vt, f and those that change no shape (vn, g, o, s, mg, mtllib,
 /// usemtl); v with 3 numbers, 4 (w) or 6 (a colour), as many in all lines; vt with 2 or 3; no number that begins with a
 /// point; f with three corners or more, indices in range. Numbers of vn are not checked.
-/// Returns a note where a third texture coordinate other than 0 is left out, else an empty string.
+/// Result: a note where a third texture coordinate other than 0 is left out; else empty.
 /// Throws std::runtime_error: expected ..., found ... in line n.
 std::string check_obj(std::string_view text);
 

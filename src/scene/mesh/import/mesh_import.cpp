@@ -52,7 +52,7 @@ class AllowedFiles : public Assimp::DefaultIOSystem {
   };
   AllowedFiles(const AssetFolders& folders, const fs::path& mesh, std::string_view bytes, Asked& asked)
       : folders_(folders), mesh_(mesh), bytes_(bytes), asked_(asked) {}
-  /// Whether the file is a regular one. assimp's own opens the file, which waits for ever on a pipe.
+  /// True: the file is regular. assimp's own test opens the file, and waits for ever on a pipe.
   bool Exists(const char* file) const override {
     std::error_code error;
     return fs::is_regular_file(file, error);
@@ -81,7 +81,7 @@ class AllowedFiles : public Assimp::DefaultIOSystem {
   static Assimp::IOStream* stream_of(std::string_view bytes) {
     return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   }
-  /// Whether a material file is certainly missing: a name with blanks may be those of several files.
+  /// True: a material file is certainly missing: a name with blanks may name several files.
   static bool lacks(const std::string& file) {
     std::error_code error;
     return fs::symlink_status(file, error).type() == fs::file_type::not_found &&
@@ -132,8 +132,9 @@ class Complaints {
     }
     const bool harmless = std::any_of(kHarmlessComplaints.begin(), kHarmlessComplaints.end(),
                                       [&](std::string_view part) { return text.find(part) != text.npos; });
-    if (first_.empty() && !harmless) first_ = line;
-    if (const std::size_t head = first_.find(": "); head < 12) first_.erase(0, head + 2);  // "Warn,  T0: "
+    if (!first_.empty() || harmless) return;
+    const std::size_t head = line.find(": ");  // of "Warn,  T0: "
+    first_ = line.substr(head < 12 ? head + 2 : 0);
   }
   std::string first_;
   Names undefined_;
@@ -206,7 +207,7 @@ glm::vec4 read_color(const aiMaterial& from, const char* key, float alpha) {
   return {c.r, c.g, c.b, alpha};
 }
 
-/// The material, or nullopt for one that assimp made up: of a file without materials (every PLY file), or `undefined`.
+/// The material; nullopt: one that assimp made up, of a file without materials (any PLY file), or `undefined`.
 std::optional<Material> read_material(const aiMaterial& from, std::string_view ending, const Names& undefined) {
   const std::string name = from.GetName().C_Str();
   const bool made_up = name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT" || undefined.contains(name);

@@ -58,15 +58,33 @@ void check_corner(std::string_view corner, const Counts& all, const Counts& abov
   }
 }
 
-void check_face(std::string_view line, const Counts& all, const Counts& above) {
+/// Parts of a corner, v, v/vt, v//vn or v/vt/vn, in words.
+std::string parts_of(std::string_view corner) {
+  std::string out;
+  for (std::size_t i = 0; i < kIndexed.size() && !corner.empty(); ++i) {
+    const std::string_view word = corner.substr(0, corner.find('/'));
+    corner.remove_prefix(std::min(word.size() + 1, corner.size()));
+    if (!word.empty()) out += fmt::format("{}{}", out.empty() ? "" : " ", kIndexed[i]);
+  }
+  return out;
+}
+
+/// Refuses corners of different parts, where assimp gives the indices that there are to other corners.
+std::string check_face(std::string_view line, const Counts& all, const Counts& above) {
   int corners = 0;
+  std::string parts;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
     if (word.find_first_not_of("0123456789/-") != word.npos) {
       refuse("a corner such as 1, 1/2, 1//3 or 1/2/3", fmt::format("\"{}\"", word));
     }
     check_corner(word, all, above);
+    if (corners == 0) parts = parts_of(word);
+    if (parts_of(word) != parts) {
+      refuse(fmt::format("corners with {} as the face's first has", parts), fmt::format("\"{}\"", word));
+    }
   }
   if (corners < 3) refuse("a face of three corners or more", fmt::format("{}", corners));
+  return parts;
 }
 
 }  // namespace
@@ -75,6 +93,7 @@ std::string check_obj(std::string_view text) {
   constexpr std::array<std::string_view, 8> kHarmlessStatements = {"vn", "g", "o", "s", "mg", "mtllib", "usemtl", ""};
   std::string note;
   std::size_t numbers_of_all = 0;
+  bool of_faces[2] = {false, false};  // without vt, with vt
   const Counts all = count_all(text);
   Counts above{};
   for (std::size_t number = 1; !text.empty(); ++number) {
@@ -101,7 +120,11 @@ std::string check_obj(std::string_view text) {
           note = fmt::format("third texture coordinates, as in line {}, are left out: textures have two", number);
         }
       } else if (statement == "f") {
-        check_face(line, all, above);
+        const bool has_vt = check_face(line, all, above).find("vt") != std::string::npos;
+        of_faces[has_vt ? 1 : 0] = true;
+        if (note.empty() && of_faces[0] && of_faces[1]) {
+          note = fmt::format("faces with and without vt, up to line {}: texture coordinates without are 0", number);
+        }
       } else if (std::find(kHarmlessStatements.begin(), kHarmlessStatements.end(), statement) ==
                  kHarmlessStatements.end()) {
         refuse("v, vn, vt, f, g, o, s, mtllib or usemtl", fmt::format("\"{}\"", statement.substr(0, 40)));

@@ -16,7 +16,7 @@ namespace {
 
 struct Property {
   std::string name;
-  std::size_t size = 0;        ///< bytes of the value, or of each of a list's
+  std::size_t size = 0;        ///< bytes of the value, or of a list's element
   std::size_t count_size = 0;  ///< bytes of a list's count; 0: no list
   bool count_has_sign = false;
   bool integer = false, has_sign = false;
@@ -50,6 +50,10 @@ Format format_of(std::string_view word) {
   refuse("a PLY format, ascii, binary_little_endian or binary_big_endian", fmt::format("\"{}\"", word));
 }
 
+bool is_indices(const Property& property) {
+  return property.name == "vertex_indices" || property.name == "vertex_index";
+}
+
 Property read_property(std::string_view line) {
   Property property;
   std::string_view type = take_word(line);
@@ -63,6 +67,9 @@ Property read_property(std::string_view line) {
   property.integer = type.find("int") != type.npos || type.find("char") != type.npos || type.find("short") != type.npos;
   property.has_sign = !type.starts_with('u');
   property.name = take_word(line);
+  if (is_indices(property) && !property.integer) {
+    refuse(fmt::format("an integer type of PLY for {}", property.name), fmt::format("\"{}\" in the header", type));
+  }
   return property;
 }
 
@@ -110,9 +117,23 @@ void require_positions(const Header& header) {
 }
 
 void check_corners(const Element& element, const Property& property, std::uint64_t row, std::uint64_t corners) {
-  const bool face = property.name == "vertex_indices" || property.name == "vertex_index";
-  if (face && corners < 3) {
+  if (is_indices(property) && corners < 3) {
     refuse("faces of three corners or more", fmt::format("{} in {} {}", corners, element.name, row));
+  }
+}
+
+/// Refuses a word that is no value of the property's type; assimp would wrap or truncate it.
+void check_value(std::string_view word, const Property& property, const auto& where) {
+  if (!number_in<double>(word)) {
+    refuse(fmt::format("a number for {}", property.name), fmt::format("\"{}\" in {}", word, where()));
+  }
+  if (!property.integer) return;
+  const std::int64_t values = std::int64_t{1} << 8 * property.size;
+  const std::int64_t least = property.has_sign ? -values / 2 : 0, most = least + values - 1;
+  const auto number = number_in<std::int64_t>(word);
+  if (!number || *number < least || *number > most) {
+    refuse(fmt::format("an integer from {} to {} for {}", least, most, property.name),
+           fmt::format("\"{}\" in {}", word, where()));
   }
 }
 
@@ -129,12 +150,7 @@ void check_row_of_text(std::string_view& text, const Element& element, std::uint
       if (!count) refuse("a list's count", fmt::format("\"{}\" in {}", word, where()));
       check_corners(element, property, row, values = *count);
     }
-    for (; values > 0; --values) {
-      const std::string_view word = take_word(line);
-      if (!number_in<double>(word)) {
-        refuse(fmt::format("a number for {}", property.name), fmt::format("\"{}\" in {}", word, where()));
-      }
-    }
+    for (; values > 0; --values) check_value(take_word(line), property, where);
   }
   if (const std::string_view word = take_word(line); !word.empty()) {
     refuse("the line's end", fmt::format("\"{}\" in {}", word, where()));
@@ -188,8 +204,7 @@ void require_strips_alone(const Header& header) {
     if (!is_strips(element)) continue;
     const bool one = element.properties.size() == 1;
     const Property property = one ? element.properties.front() : Property{};
-    const bool of_indices = property.name == "vertex_indices" || property.name == "vertex_index";
-    if (!of_indices || property.count_size == 0 || !property.integer) {
+    if (!is_indices(property) || property.count_size == 0) {
       refuse("tristrips with one property, a list vertex_indices of integers", "others");
     }
   }
@@ -203,9 +218,7 @@ std::vector<std::int64_t> take_strip(std::string_view& bytes, const Property& pr
     std::string_view line = take_line(bytes);
     take_word(line);  // the count
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-      const auto index = number_in<std::int64_t>(word);
-      if (!index) refuse("an index of a vertex in tristrips", fmt::format("\"{}\"", word));
-      indices.push_back(*index);
+      indices.push_back(number_in<std::int64_t>(word).value());  // checked: check_row()
     }
     return indices;
   }

@@ -1,5 +1,5 @@
-// plumbline_mesh_reader FILE MOST_TRIANGLES FOLDER...: runs import_mesh() for load_mesh() (mesh_file.h), in a process
-// of its own, as assimp crashes or hangs on some bad files.
+// plumbline_mesh_reader FILE MOST_TRIANGLES FOLDER...: import_mesh() for load_mesh() (mesh_file.h), in its own process:
+// assimp crashes or hangs on some bad files.
 #include <filesystem>
 #include <string>
 #include <vector>
