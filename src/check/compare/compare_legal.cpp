@@ -165,7 +165,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
 Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
   // No fragment has a colour where only the background is legal; merge judges the clear colour.
   const auto has_no_winner = [&](Meter& meter, int x, int y) {
-    if (candidate.color.empty() || !is_cleared(answers_of_winner(legal, candidate, x, y))) return false;
+    if (!is_cleared(answers_of_winner(legal, candidate, x, y))) return false;
     for (int i = 0; i < 4; ++i) add_finite_value(meter, candidate.shaded(x, y)[i], {x, y, kBackground, "color"});
     return true;
   };

@@ -15,8 +15,9 @@ using Vertices = std::span<const ClipVertex<double>>;
 struct ComparedPrimitive {
   std::uint32_t number = 0;
   Corners corners{};
-  double factor = 0;  ///< error of a cut vertex [u of corners.scale, or of corners.color_scale]
-  double copies = 0;  ///< error of a vertex of the mesh [likewise]
+  double factor = 0;     ///< error of a cut vertex [u of corners.scale, or of corners.color_scale]
+  double copies = 0;     ///< error of a vertex of the mesh [likewise]
+  bool is_flat = false;  ///< a triangle without area, of which a foreign clipper may keep any polygon, or none
 
   /// Error of a cut vertex in clip space.
   double reach() const;

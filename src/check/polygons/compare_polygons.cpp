@@ -133,6 +133,7 @@ void compare_joined(Meter& meter, Vertices mine, Vertices theirs, const Compared
 void compare_lacking(Meter& meter, const WholePolygon& mine, const WholePolygon& theirs,
                      const ComparedPrimitive& primitive) {
   const Corners& corners = primitive.corners;
+  if (primitive.is_flat && mine.empty()) return meter.ambiguous();
   const std::vector<ClipVertex<double>> widest =
       mine.empty() ? std::vector<ClipVertex<double>>() : clipped(corners, -primitive.reach());
   const Vertices left = mine.empty() ? theirs.vertices() : std::span(widest);
@@ -157,6 +158,9 @@ void compare_primitive(Meter& meter, const WholePolygon& mine, const WholePolygo
   }
   if (mine.empty() || theirs.empty()) {
     compare_lacking(meter, mine, theirs, primitive);
+  } else if (primitive.is_flat && mine.vertices().size() != theirs.vertices().size()) {
+    meter.ambiguous();
+    within_whole(meter, mine.parts(), theirs.vertices(), primitive);
   } else if (mine.is_one() && theirs.is_one()) {
     compare_joined(meter, mine.vertices(), theirs.vertices(), primitive);
   } else {
@@ -188,7 +192,9 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
   Meter meter("u");
   matched_by_primitive(all_mine, all_theirs, [&](PolygonRun mine, PolygonRun theirs) {
     const std::uint32_t number = (mine.empty() ? theirs : mine).front().primitive;
-    const ComparedPrimitive primitive{number, corners_of(draws, number, candidate, of_flat), factor, copies};
+    ComparedPrimitive primitive{number, corners_of(draws, number, candidate, of_flat), factor, copies, false};
+    const bool is_triangle = scene.meshes[draws.draw(number)->mesh].topology == Topology::triangles;
+    primitive.is_flat = copies > 0 && is_triangle && is_flat(primitive.corners, primitive.reach());
     compare_primitive(meter, {mine, candidate, primitive}, {theirs, reference, primitive}, primitive);
     meter.item();
   });

@@ -15,7 +15,7 @@ enum class FlatColors { provoking, own };
 /// triangle, colour included. Where a corner lies within `factor` u of a clip plane, the number of vertices is
 /// ambiguous. `copies`: error of a vertex of the mesh [u of its triangle's largest coordinate, or channel], for a
 /// renderer that keeps clip positions in another form; a cut vertex within `copies` + `factor` u of a corner then counts
-/// as the corner.
+/// as the corner, and a triangle without area, to `factor` u, may have any polygon along itself, or none.
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double factor, FlatColors of_flat = FlatColors::provoking, double copies = 0);
 /// Compares positions of clip polygons. Tolerance: `factor` u of |p_clip| + |w|, per coordinate; for references that

@@ -55,6 +55,18 @@ std::vector<ClipVertex<double>> clipped(const Corners& c, double by) {
   return polygon;
 }
 
+bool is_flat(const Corners& c, double tolerance) {
+  const auto length = [](const Vec4<double>& v) { return std::sqrt(glm::dot(v, v)); };
+  std::size_t from = 0;  // of the longest edge
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (length(c.p_clip[(i + 1) % 3] - c.p_clip[i]) > length(c.p_clip[(from + 1) % 3] - c.p_clip[from])) from = i;
+  }
+  const Vec4<double> along = c.p_clip[(from + 1) % 3] - c.p_clip[from],
+                     rest = c.p_clip[(from + 2) % 3] - c.p_clip[from];
+  const double squared = glm::dot(along, along);
+  return squared == 0 || length(rest - along * (glm::dot(rest, along) / squared)) <= tolerance;
+}
+
 bool may_end_in(const ClipVertex<double>& v, const Corners& c, std::size_t i, double tolerance) {
   const auto d = distances(c.p_clip[i]);
   const bool is_corner = v.p_clip == c.p_clip[i] && v.color == c.color[i];

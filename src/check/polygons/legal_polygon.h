@@ -37,6 +37,9 @@ std::vector<ClipVertex<double>> clipped(const Corners& c, double by);
 /// first `planes` clip planes. False for an empty polygon.
 bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes, double tolerance);
 
+/// True: the corners of a triangle lie on one line of clip space, but for `tolerance`. Such a triangle covers nothing.
+bool is_flat(const Corners& c, double tolerance);
+
 /// Whether rounding decides if end `i` of a line is cut off, and `v` is a legal end: the corner itself, or a cut vertex
 /// on a clip plane that the corner lies on.
 bool may_end_in(const ClipVertex<double>& v, const Corners& c, std::size_t i, double tolerance);

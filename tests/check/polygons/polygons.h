@@ -39,11 +39,11 @@ struct Polygons : testing::Test {
     in.records = records;
     records.polygons = exact::make_exact()->run_stage(scene, Stage::clip, in).records.polygons;
   }
-  Measurement compare(const Change& candidate, const Change& reference = kUnchanged) const {
+  Measurement compare(const Change& candidate, const Change& reference = kUnchanged, double copies = 0) const {
     Records<double> a = records, b = records;
     candidate(a);
     reference(b);
-    return compare_polygons(scene, a, b, kFactor);
+    return compare_polygons(scene, a, b, kFactor, FlatColors::provoking, copies);
   }
   // Vertex i of a primitive's polygon.
   static ClipVertex<double>& at(Records<double>& r, std::size_t primitive, std::uint32_t i) {

@@ -24,6 +24,27 @@ struct OpenPolygons : Polygons {
   }
 };
 
+// Corners on a line, and two equal ones; both are cut by the right plane.
+TEST_F(OpenPolygons, AForeignTriangleWithoutAreaMayHaveAnyPolygonAlongItselfOrNone) {
+  for (const glm::dvec4 last : {glm::dvec4(2, 0, 0, 1), glm::dvec4(3, 0.5, 0.25, 1)}) {
+    set({{{0, -1, -0.5, 1}, {3, 0.5, 0.25, 1}, last}});
+    const auto drop = [](auto& r) { r.polygons = {}; };
+    const auto drop_vertex = [](auto& r) { erase_vertex(r, 0, r.polygons.polygons[0].count - 1); };
+    EXPECT_TRUE(passes(compare(drop, kUnchanged, 1)));
+    EXPECT_TRUE(passes(compare(drop_vertex, kUnchanged, 1)));
+    EXPECT_TRUE(fails(compare(drop))) << "ours";
+    EXPECT_TRUE(fails(compare(
+        [&](auto& r) {
+          drop_vertex(r);
+          at(r, 0, 0).p_clip.y += 1e-4;
+        },
+        kUnchanged, 1)))
+        << "beside it";
+    set({{{0, -1, -0.5, 1}, {3, 0.5, 0.25, 1}, last + glm::dvec4(0, 1e-4, 0, 0)}});
+    EXPECT_TRUE(fails(compare(drop, kUnchanged, 1))) << "it has an area";
+  }
+}
+
 TEST_F(OpenPolygons, AVertexInTheEyeOpensNoPlane) {
   ASSERT_EQ(records.polygons.polygons[2].count, 4u);
   EXPECT_TRUE(fails(compare([&](auto& r) {
