@@ -21,13 +21,13 @@ std::string to_string(const Signature& signature);
 
 struct Entry {
   SceneId id;
-  std::vector<Signature> found;     ///< why the scene does not hold: one, or none where it does
+  std::vector<Signature> found;     ///< the finding; empty: the scene holds, or is unable
   std::vector<Signature> disputes;  ///< where a reference is shown to be wrong; sorted, each once
   std::string unable{};             ///< why nothing that the candidate drew could be judged; empty: something was
   std::string states{};             ///< StateBits of the scene (states/states.h)
   double milliseconds = 0;          ///< time of judging; differs from run to run
 };
-/// Whether two entries have the same scene, verdict and states; their times may differ.
+/// True: two entries have the same scene, verdict and states; times may differ.
 inline bool same_verdict(const Entry& a, const Entry& b) {
   return a.id == b.id && a.found == b.found && a.disputes == b.disputes && a.unable == b.unable && a.states == b.states;
 }

@@ -102,7 +102,7 @@ SceneId id_in(const std::filesystem::path& file, const std::string& text) {
   }
 }
 
-// Whether the file ends within a page, and no file -wal lies beside it, from which SQLite would restore the last pages.
+// True: the file ends within a page, and has no -wal file from which SQLite would restore the last pages.
 bool is_cut(const std::filesystem::path& file) {
   constexpr std::uintmax_t kPage = 4096;
   std::error_code none;
@@ -193,7 +193,7 @@ std::vector<Entry> Journal::entries() const {
     if (out.empty() || out.back().id != id)
       out.push_back({id, {}, {}, rows.text_at(1), rows.bytes_at(2), rows.number_at(3)});
     const Signature signature{rows.text_at(5), rows.text_at(6), rows.text_at(7)};
-    if (rows.is_null(4)) continue;  // a scene without
+    if (rows.is_null(4)) continue;  // no signature
     if (signature.stage.empty())
       throw JournalError(fmt::format("{}: {}: expected a stage, found none", database_->file.string(), to_string(id)));
     (rows.number_at(4) != 0 ? out.back().disputes : out.back().found).push_back(signature);

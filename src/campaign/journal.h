@@ -1,5 +1,5 @@
-// Journal of a campaign's process. Each verdict is on disk before the next scene is judged: a killed process, started
-// again, goes on where it was. An SQLite file in WAL mode, which one process at a time writes.
+// Journal of a campaign's process. Each verdict is written before the next scene is judged: a killed process, started
+// again, resumes. An SQLite file in WAL mode, with one writing process at a time.
 #pragma once
 
 #include <chrono>
@@ -26,9 +26,9 @@ struct JournalInUse : JournalError {
 
 class Journal {
  public:
-  /// Creates or opens the journal. `terms`: everything but the scene that decides a verdict; a journal has one text of
-  /// terms. `wait`: for a process that holds the journal, for instance to read it. Throws JournalInUse, or JournalError
-  /// for a journal of other terms and for a file that is no journal.
+  /// Creates or opens the journal. `terms`: all inputs of a verdict but the scene, one text a journal. `wait`: longest
+  /// wait for a process that holds the journal. Throws JournalInUse, or JournalError for a journal of other terms and
+  /// for a file that is no journal.
   Journal(const std::filesystem::path& file, const std::string& terms, std::chrono::milliseconds wait = {});
   ~Journal();
   Journal(const Journal&) = delete;
@@ -36,8 +36,7 @@ class Journal {
 
   /// Scenes that the journal holds.
   const std::set<SceneId>& judged() const { return judged_; }
-  /// Adds an entry; a scene that the journal holds stays as it is. After the call SIGKILL loses nothing; a power
-  /// failure may.
+  /// Adds an entry, unless the journal holds the scene. After the call SIGKILL loses nothing; a power failure may.
   void add(const Entry& entry);
   /// Entries of all scenes that the journal holds, sorted by scene.
   std::vector<Entry> entries() const;

@@ -47,8 +47,8 @@ std::string states_text(const Results& results) {
   std::vector<std::string> never = names_of(results.reached.never());
   const std::size_t more = never.size() - std::min(never.size(), kShown);
   never.resize(never.size() - more);
-  return fmt::format("states: {} of {}, and {} pairs of them; scenes that reached a new one: {}\n{}",
-                     results.reached.states(), state_names().size(), results.reached.pairs(), fmt::join(rounds, ", "),
+  return fmt::format("states: {} of {}, and {} pairs; scenes that reached a new pair: {}\n{}", results.reached.states(),
+                     state_names().size(), results.reached.pairs(), fmt::join(rounds, ", "),
                      never.empty() ? ""
                                    : fmt::format("never: {}{}\n", fmt::join(never, "; "),
                                                  more > 0 ? fmt::format("; {} more (results.json)", more) : ""));
@@ -113,7 +113,7 @@ Results merged(const std::vector<std::vector<Entry>>& journals) {
   }
   std::ranges::sort(conflicts);
   conflicts.erase(std::unique(conflicts.begin(), conflicts.end()), conflicts.end());
-  for (const SceneId& id : conflicts) all.erase(id);  // no verdict of a scene with two is taken
+  for (const SceneId& id : conflicts) all.erase(id);  // a scene with two verdicts has none
   Results out;
   out.conflicts = std::move(conflicts);
   Groups found, disputes;

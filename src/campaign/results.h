@@ -26,8 +26,7 @@ struct Results {
   std::vector<Group> found, disputes;           ///< by signature
   std::vector<SceneId> conflicts;               ///< scenes that two journals judge differently
   Reached reached;
-  /// By round (the number of its scenes' seeds): scenes that reached a pair of states first, in the order of rounds, and
-  /// of names within a round.
+  /// Scenes that first reached a state or a pair, by round (a scene's number of seeds), in the order of names.
   std::map<std::size_t, std::vector<SceneId>> kept;
   double milliseconds = 0;  ///< of judging, in all processes together
   std::uint64_t scenes() const;

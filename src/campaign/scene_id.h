@@ -1,4 +1,4 @@
-// Scenes of a campaign by name: each is a function of its name alone, on every machine.
+// Scenes of a campaign by name: a scene is a function of its name, on every machine.
 #pragma once
 
 #include <compare>
@@ -9,8 +9,8 @@
 
 namespace plumbline::campaign {
 
-/// Generator of a scene. `ordinary` and `hard` share nothing: either may draw states that the other never draws.
-/// `plain` has the geometry of `hard`, for a renderer that draws opaque triangles alone.
+/// Generator of a scene. `ordinary` and `hard` are independent: each may draw states that the other never draws.
+/// `plain`: opaque triangles in the geometry of `hard`, for renderers of no more.
 enum class Generator { ordinary, hard, plain };
 inline constexpr Generator kGenerators[] = {Generator::ordinary, Generator::hard, Generator::plain};
 std::string_view name_of(Generator generator);

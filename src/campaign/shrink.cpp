@@ -17,7 +17,7 @@ using Pointer = Json::json_pointer;
 
 constexpr std::string_view kKept[] = {"description", "mesh", "width", "height", "image", "positions"};
 
-// Scene that shrinks by trials: a smaller scene that shows the finding takes its place.
+// Scene that shrinks by trials: a smaller scene replaces it if the finding still shows.
 class Shrinker {
  public:
   Shrinker(const std::string& scene, const Shows& shows, int trials)
@@ -73,7 +73,7 @@ class Shrinker {
     }
   }
 
-  // Removes each member, or, where it must stay, its own members. The frame's size has a step of its own.
+  // Removes each member; if a member must stay, its members. smaller_frame() treats the frame's size.
   void fewer_members(const Pointer& place) {
     const Json value = scene_[place];
     if (value.is_array()) {
@@ -155,8 +155,8 @@ class Shrinker {
     }
   }
 
-  // Each number with a fraction or exponent, outside `indices` and `frame`: tries 0, then the number rounded to units,
-  // to tenths and to hundredths; the first that shows the finding stays.
+  // Rounds each number with a fraction or exponent, outside `indices` and `frame`: to 0, to units, to tenths or to
+  // hundredths, by the first value that shows the finding.
   void rounder(const Pointer& place) {
     const Json value = scene_[place];
     if (value.is_structured()) {

@@ -6,11 +6,11 @@
 
 namespace plumbline::campaign {
 
-/// Whether a scene, given as the text of its file, shows the finding.
+/// Test: a scene (the text of its file) shows the finding.
 using Shows = std::function<bool(const std::string& scene)>;
 
-/// The scene with fewer draws, primitives, members and pixels, and rounder numbers, as far as it still shows the finding:
-/// at most `trials` scenes are asked about. The same answers give the same scene. `scene` is JSON without comments.
+/// The scene with fewer draws, primitives, members and pixels, and rounder numbers, that still shows the finding. Makes
+/// at most `trials` calls of `shows`. The same answers give the same scene. `scene`: JSON without comments.
 std::string shrink(const std::string& scene, const Shows& shows, int trials);
 
 }  // namespace plumbline::campaign

@@ -1,10 +1,10 @@
-// A GoogleTest matcher: whether a frame is what a scene must look like, by plumbline's references.
+// GoogleTest matcher: a frame shows a scene, by the judgement of plumbline's references.
 //
 //   plumbline::DrawnFrame frame = plumbline::frame_of_bytes(320, 180, rgba);   // or floats, and depth
 //   EXPECT_THAT(frame, plumbline::MatchesScene("triangle.json"));
 //
-// One header, C++17, for tests that link GoogleMock and have the program plumb: that of the environment's
-// PLUMBLINE_PLUMB, else that of CMake's target plumbline::kit, else the one in PATH. MIT licence.
+// One header, C++17, for tests that link GoogleMock. The program plumb is that of the environment's PLUMBLINE_PLUMB,
+// else of CMake's target plumbline::kit, else the one in PATH. MIT licence.
 #ifndef PLUMBLINE_MATCHES_SCENE_H
 #define PLUMBLINE_MATCHES_SCENE_H
 
@@ -38,8 +38,8 @@ struct DrawnFrame {
   std::vector<double> depth;  ///< [height, width]: window z in [0,1]; empty: not judged
 };
 
-/// The frame of 8-bit colours, `rgba` of [height, width, 4] bytes; without colours where the size is below 1 x 1, so
-/// that no scene matches.
+/// Frame of 8-bit colours; `rgba`: [height, width, 4] bytes, not read where the size is below 1 x 1: MatchesScene()
+/// then throws.
 inline DrawnFrame frame_of_bytes(int width, int height, const std::uint8_t* rgba) {
   DrawnFrame frame{width, height, {}, {}};
   if (width < 1 || height < 1) return frame;
@@ -53,10 +53,10 @@ inline void PrintTo(const DrawnFrame& frame, std::ostream* out) {
        << (frame.depth.empty() ? "without depth" : "with depth");
 }
 
-/// Matches a DrawnFrame. The message for a mismatch is that of `plumb diagnose`: the first stage that is wrong, with
+/// Matcher of a DrawnFrame. The message of a mismatch is that of `plumb diagnose`: the first stage that is wrong, with
 /// numbers and pixels. A page with pictures is written to plumbline_pages/TEST/SCENE in the working directory, to
 /// SCENE.1 after one failure of the test, SCENE.2 after two. Throws std::runtime_error where the frame cannot be judged
-/// (no such scene, another size, an antialiased scene, no plumb): then neither the matcher nor Not() of it passes.
+/// (no such scene, another size, an antialiased scene, no plumb): neither the matcher nor its Not() passes.
 class SceneMatcher {
  public:
   using is_gtest_matcher = void;
@@ -184,8 +184,8 @@ class SceneMatcher {
     if (!frame.depth.empty()) arrays += ", " + array(capture, "planes.depth", "f64", frame.depth, size);
     std::ofstream manifest(capture / "manifest.json");
     manifest << "{\"format\": \"plumbline capture\", \"version\": 1, \"renderer\": \"the frame\", \"width\": "
-             << frame.width << ", \"height\": " << frame.height << ", \"byte_order\": \"little\", \"arrays\": ["
-             << arrays << "]}\n";
+             << std::to_string(frame.width) << ", \"height\": " << std::to_string(frame.height)
+             << ", \"byte_order\": \"little\", \"arrays\": [" << arrays << "]}\n";
     if (!manifest.flush()) throw std::runtime_error((capture / "manifest.json").string() + ": cannot be written");
   }
 

@@ -11,10 +11,11 @@
    plumb diagnose SCENE --program './mine {input} {output}'       one process per scene
    plumb check SCENES --program './mine {serve}'                  one process for all scenes
 
-   What is wrong with the input ends the program with status 1 and a message. */
+   Bad input ends the program with status 1 and a message. */
 #ifndef PLUMBLINE_H
 #define PLUMBLINE_H
 
+#include <locale.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -37,7 +38,7 @@
 
 enum { PL_VERSION = 1, PL_UNSUPPORTED_STATUS = 77, PL_PATH = 256 };
 
-/* One for the whole program, however many files include this one (gcc, clang, C++17); elsewhere one per file. */
+/* State of the server: one per program with gcc, clang and C++17, elsewhere one per including file. */
 typedef struct {
   jmp_buf to; /* of a server in C; in C++ an exception takes its place */
   int serving, jumps;
@@ -64,8 +65,8 @@ static void pl_fail(const char* format, ...) {
   exit(1);
 }
 
-/* Says that the scene cannot be drawn, and why: one line. Does not return: a server goes on with the next scene, in C by
-   longjmp (free before what must be freed), in C++ by an exception. */
+/* Refuses the scene, with a reason of one line. Does not return: a server goes on with the next scene, in C by longjmp
+   (free memory before the call), in C++ by an exception. */
 static void pl_unsupported(const char* format, ...) PL_PRINTF(1, 2) PL_NORETURN;
 static void pl_unsupported(const char* format, ...) {
   char* c;
@@ -176,6 +177,25 @@ static PlValue* pl_add(PlParser* p) {
   return value;
 }
 
+/* Takes a JSON number off the text. strtod() takes the decimal point of the locale, which a renderer may have set. */
+static double pl_number_at(PlParser* p) {
+  const char* point = localeconv()->decimal_point;
+  const size_t length = strspn(p->at, "+-.0123456789eE"), of_point = strlen(point);
+  char digits[256], *to = digits, *end;
+  double number;
+  size_t i;
+  for (i = 0; i < length && (size_t)(to - digits) + of_point + 1 < sizeof digits; ++i) {
+    memcpy(to, p->at[i] == '.' ? point : p->at + i, p->at[i] == '.' ? of_point : 1);
+    to += p->at[i] == '.' ? of_point : 1;
+  }
+  *to = '\0';
+  number = strtod(digits, &end);
+  if (length == 0 || i < length || *end != '\0')
+    pl_fail("%s/manifest.json: expected a value, found %.20s", p->scene->folder, p->at);
+  p->at += length;
+  return number;
+}
+
 static void pl_parse(PlParser* p) {
   const size_t length = strlen(p->path);
   pl_skip(p);
@@ -213,11 +233,8 @@ static void pl_parse(PlParser* p) {
     pl_add(p);
     p->at += 5;
   } else {
-    char* end;
-    const double number = strtod(p->at, &end);
-    if (end == p->at) pl_fail("%s/manifest.json: expected a value, found %.20s", p->scene->folder, p->at);
+    const double number = pl_number_at(p);
     pl_add(p)->number = number;
-    p->at = end;
   }
 }
 
@@ -273,9 +290,9 @@ static const PlValue* pl_require(const PlScene* scene, const char* path) {
   vsnprintf(path, sizeof path, format, pl_values); \
   va_end(pl_values)
 
-/* Each takes the value's path, made as printf makes it: pl_text(scene, "draws.%d.cull", i). */
+/* Functions of a value's path, formatted as by printf: pl_text(scene, "draws.%d.cull", i). */
 
-/* Whether it is there and not null. */
+/* True: a value other than null. */
 static int pl_has(const PlScene* scene, const char* format, ...) PL_PRINTF(2, 3);
 static int pl_has(const PlScene* scene, const char* format, ...) {
   const PlValue* value;
@@ -284,7 +301,7 @@ static int pl_has(const PlScene* scene, const char* format, ...) {
   return value != NULL && !value->is_null;
 }
 
-/* A number; true: 1, false: 0; an array or object: how many elements it has; a text or null: 0. */
+/* A number; true: 1, false: 0; of an array or object its size; of a text or null 0. */
 static double pl_number(const PlScene* scene, const char* format, ...) PL_PRINTF(2, 3);
 static double pl_number(const PlScene* scene, const char* format, ...) {
   PL_FORMATTED(path, format);
@@ -300,7 +317,7 @@ static const char* pl_text(const PlScene* scene, const char* format, ...) {
   return value->text;
 }
 
-/* Whether the text there is this word. */
+/* True: the text is this word. */
 static int pl_is(const PlScene* scene, const char* word, const char* format, ...) PL_PRINTF(3, 4);
 static int pl_is(const PlScene* scene, const char* word, const char* format, ...) {
   PL_FORMATTED(path, format);
@@ -326,7 +343,7 @@ static int pl_choice(const PlScene* scene, const char* words, const char* format
   return i;
 }
 
-/* Calls pl_unsupported() where the value is there and not null: for a draw's fog, say. */
+/* Calls pl_unsupported() for a value other than null, such as a draw's fog. */
 static void pl_none(const PlScene* scene, const char* format, ...) PL_PRINTF(2, 3);
 static void pl_none(const PlScene* scene, const char* format, ...) {
   const char* last;
@@ -370,7 +387,7 @@ static const void* pl_bytes(PlScene* scene, const char* name, size_t* size) {
   return array->bytes;
 }
 
-/* Numbers of the array, and how many there are of them (not of records); `count` may be NULL. */
+/* Numbers of the array; `count`: how many numbers, not records; may be NULL. */
 static const float* pl_floats(const PlScene* scene, size_t* count, const char* format, ...) PL_PRINTF(3, 4);
 static const float* pl_floats(const PlScene* scene, size_t* count, const char* format, ...) {
   size_t size = 0;
@@ -398,7 +415,7 @@ typedef struct {
   int width, height, arrays;
 } PlCapture;
 
-/* Writes an array: dtype is f32 f64 u8 u16 u32 u64 or i32; `shape` has `extents` numbers, the last index runs fastest. */
+/* Writes an array. dtype: f32 f64 u8 u16 u32 u64 or i32; `shape`: `extents` numbers, the last index runs fastest. */
 static void pl_array(PlCapture* capture, const char* name, const char* dtype, const void* values, int extents,
                      const size_t* shape) {
   char path[4096];
@@ -448,7 +465,7 @@ static void pl_depth(PlCapture* capture, const double* z) { pl_plane(capture, "p
 
 typedef void (*PlDraw)(const PlScene* scene, PlCapture* out);
 
-/* A text as JSON has it. */
+/* Writes a JSON string. */
 static void pl_quoted(FILE* to, const char* text) {
   fputc('"', to);
   for (; *text != '\0'; ++text) {
@@ -526,7 +543,7 @@ static int pl_serve(const char* input, const char* output, const char* renderer,
 }
 
 /* Draws the scene of the command line (INPUT OUTPUT), or, given --serve, those that stdin names: "INPUT<tab>OUTPUT" a
-   line, answered on stdout by "ok" or "unsupported REASON". What the renderer prints goes to stderr then. */
+   line, answered on stdout by "ok" or "unsupported REASON"; the renderer's prints then go to stderr. */
 static int pl_main(int argc, char** argv, const char* renderer, PlDraw draw) PL_UNUSED;
 static int pl_main(int argc, char** argv, const char* renderer, PlDraw draw) {
   char line[8192];

@@ -72,7 +72,7 @@ class Capture:
         self._manifest["arrays"].append({"name": name, "dtype": dtype, "shape": list(values.shape), "file": file})
 
     def plane(self, name, values):
-        """A plane of the frame, rows as the scene counts them: count, id_sum, id, texel, shaded, color, stencil, depth."""
+        """Writes a plane, rows in the scene's order: count, id_sum, id, texel, shaded, color, stencil, depth."""
         self.array("planes." + name, _PLANES[name], values)
 
     def finish(self):
@@ -90,8 +90,8 @@ def run(source, target, renderer, draw):
 
 
 def main(renderer, draw):
-    """Draws the scene of the command line (INPUT OUTPUT), or, given --serve, those that stdin names: "INPUT<tab>OUTPUT" a
-    line, answered on stdout by "ok", "unsupported REASON" or "failed REASON". What is printed goes to stderr then."""
+    """Draws the scene of the command line (INPUT OUTPUT), or, given --serve, those that stdin names: "INPUT<tab>OUTPUT"
+    a line, answered on stdout by "ok", "unsupported REASON" or "failed REASON"; all prints then go to stderr."""
     arguments = sys.argv[1:]
     if len(arguments) == 2:
         try:

@@ -37,7 +37,7 @@ const std::vector<Probe>& probes() {
   return all;
 }
 
-// learn_rows(), by the first depth function that the renderer draws; it draws the other probes by that one, too.
+// learn_rows(), by the first depth function that the renderer supports; all later probes use that function.
 void learn_rows_by_any(Prober& prober) {
   std::string refused;
   for (const DepthFunc func : {DepthFunc::always, DepthFunc::less_equal, DepthFunc::less}) {

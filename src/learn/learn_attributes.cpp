@@ -105,8 +105,8 @@ void learn_interpolation(Prober& prober) {
   prober.found(words, name_of(prober.learned.conventions.interpolation), evidence);
 }
 
-// Ramps two pixels wide, whose corners lie just under half a step off the grid (by roundings down and up: just under a
-// whole one). Unsnapped and snapped corners give the pixel two colours, on either side of the middle between two codes.
+// Ramps two pixels wide, whose corners lie just under half a step off the grid (just under a whole step by roundings
+// down and up). Unsnapped and snapped corners give a pixel colours on either side of the middle between two codes.
 void learn_corners(Prober& prober) {
   constexpr int kRamps = 16;
   const ConventionWords words = words_of("attribute_corners");

@@ -143,7 +143,6 @@ void learn_colors(Prober& prober) {
 // Alphas of 128.2 codes against 127.8: of one code, and greater as floats.
 void learn_alpha_test(Prober& prober) {
   const ConventionWords words = words_of("alpha_test");
-  prober.learned.conventions.alpha_test = C::AlphaTest::either;
   Scene scene = probe_frame("alpha_test", 16, 16);
   add_triangles(scene, rectangle({0, 0}, {16, 16}, 0.5, {1, 1, 1, 128.2f / 255})).alpha_test =
       AlphaTest{CompareFunc::greater, 127.8f / 255};

@@ -1,4 +1,4 @@
-// Window positions that depths are interpolated between: the corners' own, or those on the grid.
+// Window positions between which depths are interpolated: the corners' own, or snapped ones.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,8 +18,8 @@ using C = Conventions;
 constexpr int kRamps = 16, kPeriod = 4;       // ramps are two pixels wide, one begins every kPeriod pixels
 constexpr double kFirst = 0.2, kRise = 0.25;  // depth at a ramp's beginning; its rise in a pixel
 
-// Distance of a ramp's beginning from its place on the grid [pixel]: just under half a step, or under a whole one by
-// roundings down and up.
+// Distance of a ramp's beginning from its snapped position [pixel]: just under half a step, or a whole one by roundings
+// down and up.
 double off_grid(const C& c) {
   const double share = c.subpixel_rounding == C::Rounding::down ? 0.98
                        : c.subpixel_rounding == C::Rounding::up ? -0.98
@@ -57,7 +57,7 @@ void learn_depth_corners(Prober& prober) {
     if (prober.is_open(name)) return prober.open(words, fmt::format("{} is open", name));
   }
   const double off = off_grid(c), apart = kRise * off;
-  const int column = c.sample.x < 0.25 ? 2 : 1;  // of a ramp, whose sample is within the ramp by both positions
+  const int column = c.sample.x < 0.25 ? 2 : 1;  // whose sample is in the ramp by both positions
   const double as_it_is = kFirst + kRise * (column + c.sample.x - 1 - off), snapped = as_it_is + apart;
   Scene scene = ramps(c, off);
   scene.frame.depth = DepthFormat::z24;

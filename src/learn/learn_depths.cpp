@@ -67,8 +67,8 @@ std::vector<double> given_depths() {
   return out;
 }
 
-// Depths as codes of n bits, counted: those that are codes, up to float's rounding; those less than a code from the
-// given depth; those that each rounding makes of the given depth.
+// Counts of depths as codes of n bits: codes, up to float's rounding; less than a code from the given depth; equal to
+// each rounding of the given depth.
 struct Codes {
   std::size_t codes = 0, near = 0;
   std::array<std::size_t, kRoundings.size()> fits{};
@@ -208,8 +208,7 @@ void learn_depths(Prober& prober) {
 
 namespace {
 
-// A triangle of depths that are multiples of 2^-16, with corners where floats lose nothing: only its interpolation
-// rounds.
+// A triangle whose depths are multiples of 2^-16, with corners that are exact in float: only interpolation rounds.
 struct SlopedTriangle {
   WindowCorners p_win;
   // Shares of the corners at a point.
@@ -258,8 +257,8 @@ DepthFormat format_of_24(C::Depth format) {
   return format == C::Depth::z16 ? DepthFormat::z16 : format == C::Depth::z32f ? DepthFormat::z32f : DepthFormat::z24;
 }
 
-// Depths of pixels within triangles, counted: those that are rounded from the exact depth, and those that are within
-// the error of each arithmetic besides.
+// Counts of pixels within triangles: all; those whose depth is the rounded exact depth; those within the error of each
+// float arithmetic.
 struct Interpolated {
   std::size_t pixels = 0, in_double = 0, in_float = 0, stepped = 0, from_origin = 0;
   double most = 0;  // [steps more than rounding]
@@ -306,7 +305,7 @@ void count(Prober& prober, glm::ivec2 size, const std::vector<SlopedTriangle>& t
 
 }  // namespace
 
-// Pixels of sloped triangles, each held to the interval of depths that round to what is left.
+// Pixels of sloped triangles, each held to the interval of depths that round to its depth.
 void learn_depth_arithmetic(Prober& prober) {
   const ConventionWords words = words_of("depth_arithmetic");
   C& c = prober.learned.conventions;
@@ -314,7 +313,7 @@ void learn_depth_arithmetic(Prober& prober) {
     if (prober.is_open(name)) return prober.open(words, fmt::format("{} is open", name));
   }
   constexpr int kFinest = 10;  // places at multiples of 2^-10 pixel are exact (probe_scene.h)
-  // Corners on the grid are where they are, snapped or not; off it, edge equations in float lose more.
+  // Snapping does not move corners on the grid; off the grid, edge equations in float lose more.
   const int bits = c.depth_corners != C::DepthCorners::as_they_are && c.subpixel_bits != C::kFloat
                        ? std::min(c.subpixel_bits, kFinest)
                        : kFinest;
@@ -332,7 +331,7 @@ void learn_depth_arithmetic(Prober& prober) {
   prober.found(words, name_of(c.depth_arithmetic), evidence);
 }
 
-// A rectangle moved towards the eye by many units, in depths of 24 and of 16 bits, beside one that is not.
+// A rectangle with and without an offset of many units, in depths of 24 and of 16 bits.
 void learn_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format == C::Depth::z32f) return prober.open(kOffsetWords, "depths are floats, whose unit is their step");
@@ -340,6 +339,7 @@ void learn_offset_unit(Prober& prober) {
     if (prober.is_open(name)) return prober.open(kOffsetWords, fmt::format("{} is open", name));
   }
   std::string evidence;
+  glm::dvec2 units_of = c.offset_unit;
   for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
     const bool codes_of_16 =
         c.depth_format == C::Depth::z16 || (format == DepthFormat::z16 && c.depth_format != C::Depth::z24);
@@ -354,10 +354,11 @@ void learn_offset_unit(Prober& prober) {
     const double codes = (left[0] - left[1]) * scale, unit = codes / units;
     if (!(unit > 0.01))
       return prober.fits_none(kOffsetWords, fmt::format("{} units move a depth by {:.0f} codes", units, codes));
-    (format == DepthFormat::z16 ? c.offset_unit.y : c.offset_unit.x) = std::round(unit * 1e4) / 1e4;
+    (format == DepthFormat::z16 ? units_of.y : units_of.x) = std::round(unit * 1e4) / 1e4;
     evidence += fmt::format("{}{} units move a depth of {} bits by {:.0f} codes", evidence.empty() ? "" : ", ", units,
                             codes_of_16 ? 16 : 24, codes);
   }
+  c.offset_unit = units_of;
   prober.found(kOffsetWords, fmt::format("{:.4g}, {:.4g}", c.offset_unit.x, c.offset_unit.y), evidence);
 }
 

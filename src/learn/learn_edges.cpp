@@ -25,8 +25,8 @@ ProbeCorner corner(int along, double a, double b) {
   return {along == 0 ? glm::dvec3(a, b, 0.5) : glm::dvec3(b, a, 0.5), glm::vec4(1), {}};
 }
 
-// A nearly horizontal edge (`along` 0; else nearly vertical): it starts `offset` above the lower border of its strip's
-// third row and rises by `rise` over 1,024 pixels. The number of samples below it tells its place to rise/1024 pixel.
+// A nearly horizontal edge (`along` 0; else nearly vertical) that starts `offset` above the lower border of its strip's
+// third row and rises by `rise` over 1,024 pixels. The samples below the edge give its position to rise/1024 pixel.
 struct Edge {
   double offset, rise;  // as given [pixels]
   int count;            // samples of the strip's four rows that the triangles cover
@@ -63,7 +63,7 @@ std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vecto
   return out;
 }
 
-// The offset snapped to a grid; none where it is half way between two places, and rounded to the nearest.
+// The offset snapped to a grid; nullopt: half way between two positions, under rounding to nearest.
 std::optional<double> snapped(double offset, int bits, C::Rounding rounding) {
   if (bits == C::kFloat) return offset;
   const double place = std::ldexp(offset, bits);
@@ -110,8 +110,8 @@ std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int 
   return best;
 }
 
-// Finds the grid from edges moved in steps of 1/1024 pixel, on the grids' places and off them; where that is none of 8
-// bits or fewer, from edges near the sample, moved in steps of 1/16384 pixel.
+// Finds the grid from edges moved in steps of 1/1024 pixel, on and off the grids' positions; if that grid is finer than
+// 8 bits, from edges near the sample, moved in steps of 1/16384 pixel.
 constexpr int kMostBits = 12;
 std::optional<Grid> grid_along(Prober& prober, int along) {
   std::vector<double> offsets;
@@ -143,8 +143,8 @@ double place_from_above(Prober& prober, int along, const Grid& grid) {
   return n > 0 ? sum / n : grid.sample;
 }
 
-// Returns how far triangles reach beyond their edges [pixels], and corrects grid.sample: half the difference, and the
-// mean, of its places from both sides. A place at a multiple of 1/2 is taken as it is.
+// Reach of triangles beyond their edges [pixels]: half the difference of the sample's positions from both sides. Sets
+// grid.sample to the positions' mean. A position at a multiple of 1/2 is kept.
 double reach_of(Prober& prober, int along, Grid& grid) {
   if (std::abs(grid.sample - std::round(2 * grid.sample) / 2) < 1.5 / kLong) return 0;
   const double above = place_from_above(prober, along, grid), reach = (above - grid.sample) / 2;
@@ -158,7 +158,7 @@ glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
   Scene scene = probe_frame("shift", 16, 16);
   add_triangles(scene, rectangle(sample + 2.75, sample + 9.75, 0.5, glm::vec4(1)));
   const Plane<glm::vec4> color = prober.draw(scene).color;
-  constexpr int kHalf = 4;  // of the rectangle's side: pixels astray, or on its border, tell nothing
+  constexpr int kHalf = 4;  // of the rectangle's side: single pixels, or its border, do not count
   std::array<int, 16> in_column{}, in_row{};
   for (std::size_t y = 0; y < 16; ++y) {
     for (std::size_t x = 0; x < 16; ++x) {
@@ -171,15 +171,14 @@ glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
   return {first(in_column), first(in_row)};
 }
 
-// Edges tell a sample's place but for whole pixels. At a pixel's lower or left border it may as well be at the upper or
-// right one, of the pixel before.
+// Edges give a sample's position but for whole pixels: a sample at a pixel's lower or left border may be at the upper
+// or right one of its neighbour.
 void take_far_border(double& sample, double& shift) {
   if (sample == 0 && shift == -1) sample = 1, shift = 0;
 }
 
-// The sample of a renderer whose corners lie on whole pixels, as its edges do: a sample at a pixel's border may as well
-// be at the opposite one, with the other side's tie rule. Pixels along a diagonal tell which, but for those whose
-// samples lie on an edge.
+// Sample of a renderer whose corners and edges lie on whole pixels: a sample at a pixel's border may lie at the border
+// opposite, with the other side's tie rule. Pixels along a diagonal decide, except those whose samples lie on an edge.
 glm::dvec2 sample_by_diagonal(Prober& prober, glm::dvec2 sample) {
   constexpr int kSize = 16, kLow = 2, kHigh = 13;
   Scene scene = probe_frame("diagonal", kSize, kSize);

@@ -46,8 +46,8 @@ Texture texture_of(int size, auto code) {
   return out;
 }
 
-// Share of a texture between its first and its last texel's centre, where no wrap mode counts: a renderer has one or the
-// other. Weights there are multiples of 2^-13: none of fewer bits holds them.
+// Share of a texture between its first and last texel's centre, where no wrap mode acts: a renderer may lack any mode.
+// Weights there are multiples of 2^-13, which no fewer bits hold.
 constexpr float kMiddle = 61.0f / 64;
 Plane<glm::vec4> middle_of(Prober& prober, const std::string& name, Texture texture) {
   const float side = 1 / static_cast<float>(texture.levels[0].width), least = side / 2;
@@ -80,8 +80,8 @@ WeightErrors weight_errors(Prober& prober) {
   return out;
 }
 
-// Whether the errors are those of weights rounded to steps (up, down or to the nearest) and of colours in codes: not
-// those of another curve, nor of a sample that is off.
+// True: the errors are of weights rounded to steps (up, down or nearest) and of colours in codes, not of another curve
+// or of a displaced sample.
 bool are_of_rounding(const WeightErrors& errors, double step) {
   constexpr double kCode = 1.0 / 255;
   return errors.most - errors.least <= 2 * step + 2 * kCode && std::abs(errors.mean) <= step / 2 + kCode;
@@ -111,7 +111,7 @@ void learn_weights(Prober& prober) {
       const double off = 255 * static_cast<double>(color(x, y).r) - exact;
       most = farther(most, off);
       highest = std::max(highest, off);
-      // A weight is off by a step, of each direction's neighbours; three means are rounded to half a step.
+      // Each direction's weight is off by at most a step; three means are rounded to half a step.
       const double along_x = std::max(std::abs(grey(1, 0) - grey(0, 0)), std::abs(grey(1, 1) - grey(0, 1))),
                    along_y = std::max(std::abs(grey(0, 1) - grey(0, 0)), std::abs(grey(1, 1) - grey(1, 0)));
       step = std::max(step, (std::abs(off) - 0.5) / (along_x + along_y + 1.5 * 255));
@@ -120,7 +120,7 @@ void learn_weights(Prober& prober) {
   const std::string evidence =
       fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * (kTexturedSize - 1), most);
   if (!std::isfinite(most)) return prober.fits_none(words, evidence);
-  // Weights of few bits are off towards either neighbour: no texel is above the exact one where mixes are truncated.
+  // Coarse weights err towards either neighbour, truncated mixes downwards only.
   if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");
   const bool are_float = most <= (c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01);
   const int bits = are_float ? C::kFloat : std::min(static_cast<int>(std::floor(-std::log2(step))), 12);
@@ -139,9 +139,8 @@ void learn_weights(Prober& prober) {
 
 namespace {
 
-// A floor that reaches from near to far, each level of its texture in its own grey: at the window's corners, its place
-// in eye space and its texture coordinates. The texture lies askew: the length of a derivative is another than its
-// largest component.
+// A floor from near to far, each level of its texture in its own grey: eye-space position and texture coordinates at
+// the window's corners. The texture lies askew: a derivative's length differs from its largest component.
 constexpr ProbeCorner floor_corner(glm::dvec2 ndc, double w, glm::vec2 st) { return {{ndc * w, w}, glm::vec4(1), st}; }
 constexpr std::array<ProbeCorner, 4> kFloor = {floor_corner({-1, -1}, 2, {0, 0}),
                                                floor_corner({1, -1}, 2, {1.1f, 0.9f}),
@@ -184,8 +183,8 @@ double floor_lambda(glm::dvec2 p_win, bool lower) {
   return std::log2(std::max(derivative({h, 0}), derivative({0, h})));
 }
 
-// Pixels that are not at the triangles' common edge: how many have their own level, and how many one of their square of
-// two by two. Squares whose pixels' own levels differ: how many have one level.
+// Counts of pixels off the triangles' common edge: all; with their own level; with a level of their square of 2 x 2.
+// Counts of squares whose pixels' own levels differ: all; drawn in one level.
 struct Levels {
   std::size_t pixels = 0, own = 0, of_square = 0, squares = 0, alike = 0;
 };

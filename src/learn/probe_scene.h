@@ -19,17 +19,17 @@ struct ProbeCorner {
   glm::vec2 texcoord{0};
 };
 
-/// Depth in OpenGL's view volume [0,1] to draw at, so that the declared view volume yields `z`. The volume [0,w] in z is
-/// the far half of OpenGL's.
+/// Depth in OpenGL's view volume [0,1] from which the found view volume makes `z`. The volume [0,w] in z is the far
+/// half of OpenGL's.
 inline double in_volume(const Conventions& conventions, double z) {
   return conventions.clip_depth == Conventions::ClipDepth::zero_to_w ? (1 + z) / 2 : z;
 }
 
-/// A black frame, and no draw. Model space is the window (ProbeCorner): where the frame's sides are powers of two, and
-/// places multiples of 2^-10 pixel, floats on the way to the window lose nothing.
+/// A black frame, and no draw. Model space is the window (ProbeCorner): with sides of powers of two, and positions at
+/// multiples of 2^-10 pixel, floats on the way to the window are exact.
 Scene probe_frame(std::string name, int width, int height);
 
-/// Adds a draw of the triangles, unlit; it leaves depths. Prober::draw() chooses its depth function.
+/// Adds an unlit draw of the triangles. Prober::draw() chooses the depth function.
 Draw& add_triangles(Scene& scene, std::span<const std::array<ProbeCorner, 3>> triangles);
 
 /// Two triangles that fill [low, high) at one depth, in one colour.
@@ -37,7 +37,7 @@ std::array<std::array<ProbeCorner, 3>, 2> rectangle(glm::dvec2 low, glm::dvec2 h
 /// Two triangles of four corners, in turn.
 std::array<std::array<ProbeCorner, 3>, 2> quad(const std::array<ProbeCorner, 4>& corners);
 
-/// Whether a probe's white covers the pixel.
+/// True: a probe's white covers the pixel.
 inline bool is_white(const glm::vec4& color) { return color.r > 0.5f; }
 
 }  // namespace plumbline::learn

@@ -17,8 +17,8 @@ namespace plumbline::learn {
 /// One convention, and what shows it.
 struct LearnedRow {
   std::string name;      ///< as in conventions.json
-  std::string value;     ///< in its words; "open": the renderer does not show it; "none fits": no value explains it
-  std::string evidence;  ///< such as "1,024 of 1,024 probes", or why it is open
+  std::string value;     ///< a word; "open": the renderer does not show it; "none fits": no value explains it
+  std::string evidence;  ///< "768 of 768 colours", or the reason for "open"
 };
 
 /// A probe's picture, by the conventions found before it (to_dialect()).
@@ -37,8 +37,7 @@ class Prober {
  public:
   explicit Prober(Renderer& renderer) : renderer_(renderer) {}
 
-  /// Colour and depth, by the conventions found so far. Throws what Renderer::capture throws, and Unsupported where no
-  /// colour is left.
+  /// Colour and depth, by the conventions found so far. Throws as Renderer::capture, and Unsupported: no colour.
   Planes draw(const Scene& scene);
 
   /// Depths of draw(). Throws Unsupported where no depth is left.
@@ -57,7 +56,7 @@ class Prober {
   Learned learned;
   /// Depth function of all draws of the probes. Where draws lie over each other, the later one is the nearer.
   DepthFunc depth_func = DepthFunc::always;
-  /// False: colours are 4 codes or more from linear ones, in no known encoding; probes of mixed colours are skipped.
+  /// False: no known encoding, and colours 4 codes or more from linear: probes of mixed colours are skipped.
   bool are_linear = true;
   /// The first probe's picture has one colour: no other probe is drawn.
   bool sees_nothing = false;

@@ -29,8 +29,8 @@ struct Tap {
 inline constexpr std::array<Tap, 6> kTaps = {
     {{-.52, .38, 128}, {.41, .56, 119}, {.27, .08, 294}, {-.17, -.29, 249}, {.58, -.55, 104}, {-.31, -.71, 106}}};
 
-/// The passes of a scene, in order; of a scene that is not antialiased, the scene itself. A pass of an antialiased
-/// scene has antialias `none` and an empty path, as no file holds it. Scissor boxes grow with a supersampled frame.
+/// Passes of a scene, in order; without antialiasing, a copy of the scene. A pass of an antialiased scene has
+/// antialias `none` and an empty path: no file holds a pass. Supersampling scales scissor boxes by the factor.
 std::vector<Scene> passes_of(const Scene& scene);
 std::size_t pass_count(const Antialias& antialias);
 /// Pass number i of passes_of() into `pass`, whose memory is reused.
@@ -49,7 +49,7 @@ using PixelSamples = FixedVector<PixelSample, 64>;
 /// depths are not averaged (Mesa's glBlitFramebuffer takes sample 0's, too).
 PixelSamples samples_of(const Antialias& antialias);
 
-/// Offset of the pass' sample from the pixel's centre, where coverage and depth are evaluated [1/256 pixel].
+/// Offset from the pixel's centre to the pass' sample of coverage and depth [1/256 pixel].
 inline glm::ivec2 sample_place(const FrameFormat& frame) {
   return frame.pass.sample ? kSamples[static_cast<std::size_t>(*frame.pass.sample)] : glm::ivec2(0);
 }

@@ -1,5 +1,5 @@
-// A vector of at most N values, stored in place, without allocation. Throws std::length_error where an (N + 1)th is
-// added.
+// A vector of at most N values, stored in place, without allocation. push_back() beyond N throws
+// std::length_error.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ class FixedVector {
  public:
   static constexpr std::size_t kMost = N;
   void push_back(const T& value) {
-    if (size_ == N) throw std::length_error("more of a kind than there is room for");
+    if (size_ == N) throw std::length_error("FixedVector: all values are in use");
     values_[size_++] = value;
   }
   void pop_back() { --size_; }

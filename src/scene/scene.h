@@ -21,7 +21,7 @@ namespace plumbline {
 /// `tinyrenderer`: TinyRenderer.
 enum class Dialect { gl, gzrender, games101, tinyrenderer };
 
-/// Whether row 0 is the top row of the picture.
+/// True: row 0 is the top row of the picture.
 constexpr bool rows_from_top(Dialect dialect) { return dialect == Dialect::gzrender; }
 
 /// Kind of a mesh's primitives.
@@ -140,9 +140,9 @@ enum class ColorMaterial { none, ambient, diffuse, ambient_and_diffuse, specular
 /// model-view matrix' uniform scale (GL_RESCALE_NORMAL), or neither.
 enum class Normals { normalize, rescale, as_they_are };
 
-/// Interpolation of a draw's colours. `phong`: a lit draw is lit per fragment, at the interpolated position and at the
-/// interpolated normal, brought to unit length whatever Normals says; its vertex colours are those of an unlit draw.
-/// (GLSL programs, note 000.)
+/// Interpolation of a draw's colours. `phong`: a lit draw is lit per fragment, by the interpolated position and the
+/// interpolated normal, which is normalised whatever Normals says; vertex colours are those of an unlit draw. (GLSL
+/// programs, note 000.)
 enum class Shading { flat, gouraud, phong };
 enum class Cull { none, back, front };
 enum class PolygonMode { fill, line, point };
@@ -201,13 +201,13 @@ struct Fog {
   float end = 1;
 };
 
-/// How a fragment that passed all tests is written to the frame.
+/// State of the write to the frame, after all tests.
 struct Merge {
   std::optional<Blend> blend;   ///< nullopt: the colour replaces the stored one
   glm::bvec4 color_mask{true};  ///< channels that are written
-  bool depth_mask = true;       ///< whether depth is written
-  /// Logic op of colour codes, in blending's place (OpenGL 2.1 spec 4.1.10). In a float frame the colour replaces what
-  /// is stored.
+  bool depth_mask = true;       ///< depth is written
+  /// Logic op of colour codes, in blending's place (OpenGL 2.1 spec 4.1.10). In a float frame the colour replaces the
+  /// stored one.
   std::optional<LogicOp> logic_op = std::nullopt;
 };
 
@@ -223,7 +223,7 @@ struct Draw {
   Shading shading = Shading::gouraud;
   Cull cull = Cull::none;
   /// glPolygonMode: the clipped triangle is filled, or its edges are drawn as lines, or its corners as points. All
-  /// edges are boundary edges (OpenGL 2.1 spec 3.5.4), those that clipping makes included; there are no edge flags.
+  /// edges, those made by clipping too, are boundary edges (OpenGL 2.1 spec 3.5.4); there are no edge flags.
   PolygonMode front_mode = PolygonMode::fill, back_mode = PolygonMode::fill;
   int line_width = 1;  ///< pixels, [1, 16]
   int point_size = 1;  ///< pixels, [1, 64]: the side of a square
@@ -238,12 +238,12 @@ struct Draw {
   std::optional<DrawTexture> texture;  ///< requires texture coordinates in the mesh and both polygon modes fill
 };
 
-/// Whether triangles of either facing are filled.
+/// True: triangles of either facing are filled.
 inline bool is_filled(const Draw& draw) {
   return draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
 }
 
-/// Whether a draw is lit at its vertices, and whether at its fragments.
+/// True: the draw is lit at its vertices; at its fragments.
 inline bool is_lit_per_vertex(const Draw& draw) { return draw.lit && draw.shading != Shading::phong; }
 inline bool is_lit_per_fragment(const Draw& draw) { return draw.lit && draw.shading == Shading::phong; }
 
@@ -296,28 +296,28 @@ struct Scene {
   std::vector<Draw> draws;  ///< in draw order
 };
 
-/// Whether any draw has a texture.
+/// True: a draw has a texture.
 bool textured(const Scene& scene);
-/// Whether the frame is resolved from passes (scene/antialias.h).
+/// True: the frame is resolved from passes (scene/antialias.h).
 bool antialiased(const Scene& scene);
-/// Selects one of a vertex' lit colours. `back`: the back face's. `secondary`: the specular term alone, where
-/// LightModel::separate_specular; the primary colour is then the rest, and otherwise the whole.
+/// Selector of one of a vertex' lit colours. `back`: the back face's. `secondary`: the specular term alone, which the
+/// primary colour lacks under LightModel::separate_specular, and has otherwise.
 struct LitPart {
   bool back = false, secondary = false;
 };
-/// The material that gives that part of a lit draw's colour. `color`: the vertex colour, which replaces the material
-/// colours of Draw::color_material (OpenGL 2.1 spec 2.14.3); null: the mesh has no colours. The secondary part has no
-/// meaningful alpha.
+/// Material of one part of a lit draw's colour. `color`: the vertex colour, which replaces the material colours of
+/// Draw::color_material (OpenGL 2.1 spec 2.14.3); null: the mesh has no colours. The secondary part's alpha has no
+/// meaning.
 Material lit_material(const Scene& scene, const Draw& draw, LitPart part, const glm::vec4* color);
 
-/// Whether any draw may make primitives of that topology, by its mesh or by one of its polygon modes.
+/// True: a draw may make primitives of that topology, by its mesh or by a polygon mode.
 bool draws(const Scene& scene, Topology topology);
-/// Whether a pixel's colour depends on the last drawn fragment alone: no blending, logic op or colour mask in any draw.
+/// True: a pixel's colour is the last drawn fragment's: no draw has blending, a logic op or a colour mask.
 inline bool colors_replace(const Scene& scene) {
   return std::all_of(scene.draws.begin(), scene.draws.end(),
                      [](const Draw& d) { return !d.merge.blend && !d.merge.logic_op && glm::all(d.merge.color_mask); });
 }
-/// Whether every drawn fragment writes its depth: depth_mask is set in all draws.
+/// True: every drawn fragment writes its depth: all draws set depth_mask.
 inline bool depths_replace(const Scene& scene) {
   return std::all_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.merge.depth_mask; });
 }

@@ -15,7 +15,7 @@ glm::vec4 rounded(TexelType type, glm::dvec4 value) {
   return out;
 }
 
-/// Calls add(i, share) for each of a row's `from` texels that texel `to_i` of a row of `to` covers; shares sum to 1.
+/// Calls add(i, share) for each of `from` texels in a row that texel `to_i` of `to` covers; shares sum to 1.
 template <class Add>
 void shares(int from, int to, int to_i, Add add) {
   const double size = static_cast<double>(from) / to, first = to_i * size, last = (to_i + 1) * size;

@@ -56,14 +56,14 @@ struct Texture {
   std::vector<TextureLevel> levels;  ///< 0: the image; each next half as wide and high, rounded down; the last 1 x 1
 };
 
-/// Texture source components (Cs, As) that a texture of the format makes of `rgba`: colour 0 of `alpha`, alpha 1 of
-/// `luminance` and `rgb` (OpenGL 2.1 spec, tables 3.15 and 3.21).
+/// Texture source components (Cs, As) of `rgba` in that format: `alpha` has colour 0, `luminance` and `rgb` have
+/// alpha 1 (OpenGL 2.1 spec, tables 3.15 and 3.21).
 glm::vec4 source_components(TextureFormat format, const glm::vec4& rgba);
 
 /// Sets texture.levels: the rgba image in the texture's format and type, and the mipmap levels down to 1 x 1. A texel
-/// is the mean of the area that it covers in the next finer level (of odd sides, fractions of texels count), computed
-/// in double and rounded to the type. OpenGL leaves that filter open (3.8.8, automatic mipmap generation): all
-/// renderers get these levels.
+/// is the mean of its area in the next finer level (of an odd side, with fractions of texels), computed in double and
+/// rounded to the type. OpenGL leaves that filter open (3.8.8, automatic mipmap generation): all renderers get these
+/// levels.
 void set_levels(Texture& texture, TextureLevel image);
 
 /// Number of the coarsest level that may be sampled: `q` of OpenGL 2.1 spec 3.8.8.

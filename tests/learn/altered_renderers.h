@@ -1,4 +1,4 @@
-// Our renderer, its scenes and pictures altered: what plumb learn asks.
+// Our renderer with altered scenes and pictures, for plumb learn.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ class Altered : public Renderer {
   Alter alter_;
 };
 
-// Ours, of a scene that is altered before it is drawn, and whose picture is altered then.
+// Our renderer on altered scenes; `after` then alters its pictures.
 class OfAlteredScenes : public Renderer {
  public:
   RendererInfo info() const override { return renderer_->info(); }

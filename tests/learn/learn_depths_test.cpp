@@ -8,6 +8,8 @@
 namespace plumbline::learn {
 namespace {
 
+// Depths that no other probe looks at are some codes off: float arithmetic up to a bound, and a finding beyond it. Far
+// from the origin, edge equations lose more than differences do.
 TEST(LearnDepths, InFloatAreFound) {
   using enum C::DepthArithmetic;
   const auto learned_of = [](double codes, int least_side) {

@@ -86,6 +86,7 @@ TEST(LearnEdges, ASampleAtAWholePixelsBorderIsFound) {
   }
 }
 
+// A tolerance of edge functions moves edges of one side as a sample off the centre would, and those of the other back.
 TEST(LearnEdges, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
   constexpr double kReach = 2.0 / 256;
   const auto plain = pipeline::make_pipeline();

@@ -81,10 +81,7 @@ TEST(Learn, RowsAndDepthsThatAreLeftOtherwiseAreFound) {
             C::Depth::z16);
 }
 
-// Depths that no other probe looks at are some codes off: float arithmetic up to a bound, and a finding beyond it. Far
-// from the origin, edge equations lose more than differences do.
-// What is nonsense leaves conventions open, at their defaults.
-// With the near plane half way to the far one, ours has the depths of a view volume of [0,w] in z.
+// A near plane half way to the far one gives our renderer the depths of a view volume of [0,w] in z.
 TEST(Learn, DepthsOfAVolumeFromZeroAreRoundedFromTheExactOnes) {
   OfAlteredScenes renderer;
   renderer.before = [](Scene& scene) {
@@ -97,6 +94,7 @@ TEST(Learn, DepthsOfAVolumeFromZeroAreRoundedFromTheExactOnes) {
       << fmt::format("{}", fmt::join(found.unexplained, "\n"));
 }
 
+// Nonsense leaves conventions open, at their defaults.
 TEST(Learn, NonsenseIsOpen) {
   const auto of = [](const Alter& alter) {
     Altered renderer(pipeline::make_pipeline(), alter);
@@ -235,7 +233,6 @@ TEST(Learn, AProbeThatFailsIsAFindingOfOneLine) {
   EXPECT_EQ(learn(renderer).conventions.unexplained, expected);
 }
 
-// A tolerance of edge functions moves edges of one side as a sample off the centre would, and those of the other back.
 // One depth a triangle, of a renderer that cuts nothing, looks clamped at the near plane alone.
 TEST(Learn, OneDepthATriangleIsNotClamped) {
   pipeline::Stages stages = pipeline::production_stages();

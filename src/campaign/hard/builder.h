@@ -43,7 +43,7 @@ struct Builder {
   bool has_stencil = false;        ///< of the frame
   bool has_line_or_point = false;  ///< lines, points, or polygons drawn as such
   std::string_view color_format = "rgba8";
-  bool opaque = false;  // every alpha is 1
+  bool opaque = false;  ///< alphas are 1
   Object textures;
   std::vector<std::string> texture_names;
   std::vector<bool> decal_fits;  ///< of each: decal is defined for its format
@@ -55,7 +55,6 @@ struct Builder {
 struct Shape {
   std::vector<Point> positions;
   std::vector<std::array<int, 3>> triangles;
-  bool faces_one_way = false;  ///< counter-clockwise in the window, all of them
 };
 
 // The scene around the draws (view.cpp).
@@ -63,7 +62,7 @@ void choose_view(Builder& b);
 Object frame(Builder& b);
 Object projection(Builder& b);  ///< may move the eye
 Object camera(const Builder& b);
-/// A distance from the eye: mostly between the planes that clip, now and then on one, behind the eye, or beside zero.
+/// A distance from the eye: mostly between near and far, at times on or beside one, behind the eye, or near zero.
 double distance(Builder& b);
 
 // Shapes (shapes.cpp).

@@ -1,7 +1,7 @@
 // Hard scenes by seed: geometry and state at which pipelines break, in all states of the scene format.
 //
 // Written from the scene format's schema and from cases at which pipelines break (shapes.cpp). Shares nothing with
-// src/campaign/ordinary but random numbers and JSON text: what one author forgets, the other may not.
+// src/campaign/ordinary but random numbers and JSON text: each may draw states that the other lacks.
 #pragma once
 
 #include "campaign/text/choices.h"

@@ -56,7 +56,7 @@ HardMesh written_out(Builder& b) {
   return {Object(alone ? "triangle" : "triangles", out.text()).text(), textured};
 }
 
-// A flat rectangle in space, upright or lying down, whose corners are the frame's or beyond.
+// A rectangle parallel to the picture, from half to twice the frame's size, or a unit quad.
 HardMesh quad(Builder& b) {
   Choices& c = b.choose;
   Object out;

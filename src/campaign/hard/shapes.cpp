@@ -23,7 +23,7 @@ Spot anywhere(Builder& b) {
   return {x, along(b.view.height)};
 }
 
-// Spot on a grid of 1, 1/2, 1/4 or 1/16 pixel, on which pixels' corners and, from 1/2 on, pixels' centres lie.
+// Spot on a grid of 1, 1/2, 1/4 or 1/16 pixel, which holds pixels' corners and, from 1/2 on, centres.
 Spot on_grid(Builder& b) {
   Choices& c = b.choose;
   const double parts = c.of({1, 2, 2, 4, 16});
@@ -69,7 +69,7 @@ Shape slivers(Builder& b) {
   return out;
 }
 
-// One triangle several times, each a hair behind the last or at the last one's place, perhaps from another corner on.
+// One triangle several times, each a hair behind the last or coincident, perhaps with rotated corners.
 Shape coincident(Builder& b) {
   Choices& c = b.choose;
   Shape out;
@@ -101,7 +101,7 @@ Shape grazing(Builder& b) {
   return out;
 }
 
-// Corners where samples and pixels' corners are: every edge is a tie.
+// Corners at samples and pixels' corners: many samples are ties.
 Shape gridded(Builder& b) {
   Shape out;
   const int count = b.choose.count(1, 6);
@@ -130,7 +130,6 @@ Shape fan(Builder& b) {
     out.positions.push_back(b.view.at(middle.x + way[0] * r, middle.y + way[1] * r, d + slope * way[0]));
   }
   for (int i = 0; i < 8; ++i) out.triangles.push_back({0, 1 + i, 1 + (i + 1) % 8});
-  out.faces_one_way = true;
   return out;
 }
 
@@ -156,7 +155,6 @@ Shape strip(Builder& b) {
       out.triangles.push_back({n + 2, n + 3, n + 1});
     }
   }
-  out.faces_one_way = true;
   return out;
 }
 
@@ -193,7 +191,7 @@ Shape tiny(Builder& b) {
   return out;
 }
 
-// Triangles of no area, and corners used twice.
+// No area, and both windings of a triangle.
 Shape degenerate(Builder& b) {
   Choices& c = b.choose;
   Shape out = scattered(b);

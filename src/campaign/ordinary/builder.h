@@ -53,7 +53,7 @@ Object fog(Builder& b);
 /// Adds a texture to the scene and returns its name.
 std::string add_texture(Builder& b);
 Object draw_texture(Builder& b, const std::string& name);
-/// Adds what a beginner tries on a solid: shading, culling, polygon modes, normals, colour material.
+/// Adds state of a solid: shading, culling, polygon modes, normals, back material.
 void add_solid_state(Builder& b, Object& draw);
 
 // Meshes (meshes.cpp).
@@ -91,7 +91,7 @@ void add_mirror(Builder& b);
 void add_shadow(Builder& b);
 void add_outline(Builder& b);
 void add_inset(Builder& b);
-void add_oddity(Builder& b);  ///< a logic op, a colour mask, a depth range, an unusual depth function
+void add_oddity(Builder& b);  ///< a logic op, colour mask, depth range, depth function or blend
 
 // Frame, camera, projection and lights (view.cpp).
 Object frame(Builder& b);

@@ -206,7 +206,7 @@ void add_outline(Builder& b) {
   b.draws.push_back(outer);
 }
 
-// A second view in a corner: cleared by a square, cut off by the scissor.
+// A solid cut off by a scissor box.
 void add_inset(Builder& b) {
   Choices& c = b.choose;
   const Solid what = solid(b);

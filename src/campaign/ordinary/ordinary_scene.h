@@ -2,7 +2,7 @@
 // textbook's texture, a mirror, a shadow, a window pane, a model that came with another program.
 //
 // Written from the scene format's schema (tests/scenes/scene.schema.json). Shares nothing with src/campaign/hard but
-// random numbers and JSON text: what one author forgets, the other may not.
+// random numbers and JSON text: each may draw states that the other lacks.
 #pragma once
 
 #include "campaign/text/choices.h"

@@ -12,7 +12,7 @@ namespace plumbline::campaign {
 class Reached {
  public:
   Reached();
-  /// Adds a scene's states; returns whether any of them, or any pair of them, is new.
+  /// Adds a scene's states. Result: a state, or a pair of states, is new.
   bool add(const StateBits& of_scene);
   std::size_t states() const;
   /// Unordered pairs of different states.

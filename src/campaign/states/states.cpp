@@ -12,7 +12,7 @@ namespace plumbline::campaign {
 
 namespace {
 
-// Says of each state whether a scene is of it. The order of the calls numbers the states.
+// Test of a scene for each state; the order of the tests numbers the states.
 class StateFinder {
  public:
   StateFinder(const Scene& scene, const Capture& drawn, const std::function<void(const std::string&, bool)>& tell)
@@ -167,9 +167,11 @@ class StateFinder {
     tell("clip: a vertex beside the eye", any_vertex([](const auto& p) { return std::abs(p.w) < 1e-5; }));
     tell("clip: a vertex beyond near", any_vertex([](const auto& p) { return p.z < -p.w; }));
     tell("clip: a vertex beyond far", any_vertex([](const auto& p) { return p.z > p.w; }));
-    tell("clip: a vertex beyond left or right", any_vertex([](const auto& p) { return std::abs(p.x) > p.w; }));
-    tell("clip: a vertex on near, far, left or right",
-         any_vertex([](const auto& p) { return std::abs(p.z) == p.w || std::abs(p.x) == p.w; }));
+    tell("clip: a vertex beyond a side",
+         any_vertex([](const auto& p) { return std::abs(p.x) > p.w || std::abs(p.y) > p.w; }));
+    tell("clip: a vertex on a plane", any_vertex([](const auto& p) {
+           return std::abs(p.z) == p.w || std::abs(p.x) == p.w || std::abs(p.y) == p.w;
+         }));
     for (const std::uint32_t corners : {3u, 4u, 5u, 6u, 7u}) {
       tell(fmt::format("clip: a polygon of {} corners{}", corners, corners == 7 ? " or more" : ""),
            std::ranges::any_of(records_.polygons.polygons, [&](const ClipPolygon& p) {
@@ -178,7 +180,8 @@ class StateFinder {
     }
     std::size_t primitives = 0;
     for (const Draw& d : scene_.draws) primitives += scene_.meshes[d.mesh].triangles.size();
-    tell("clip: a primitive is gone", records_.polygons.polygons.size() < primitives);
+    tell("clip: a primitive is gone",
+         !records_.polygons.vertices.empty() && records_.polygons.polygons.size() < primitives);
     const auto any_triangle = [&](auto holds) { return std::ranges::any_of(records_.triangles, holds); };
     tell("window: a front face", any_triangle([](const auto& t) { return t.front; }));
     tell("window: a back face", any_triangle([](const auto& t) { return !t.front; }));
@@ -191,7 +194,7 @@ class StateFinder {
   void outcomes_of_fragments() {
     std::vector<std::size_t> covered(records_.triangles.size());
     for (const Covered& c : records_.covered) {
-      if (c.triangle < covered.size()) ++covered[c.triangle];  // a program may leave fragments without triangles
+      if (c.triangle < covered.size()) ++covered[c.triangle];  // a capture may have fragments, no triangles
     }
     tell("coverage: a triangle without a fragment", std::ranges::count(covered, 0u) > 0);
     tell("coverage: a triangle of one fragment", std::ranges::count(covered, 1u) > 0);

@@ -21,7 +21,7 @@ inline bool has_state(std::string_view bits, std::size_t state) {
 /// Names of all states, by number: "depth_func less", "clip: a vertex behind the eye".
 const std::vector<std::string>& state_names();
 
-/// The states of a scene. `drawn`: its capture; outcomes of stages that it does not hold are left out.
+/// States of a scene. `drawn`: the scene's capture; outcomes of stages without records are left out.
 StateBits states_of(const Scene& scene, const Capture& drawn);
 
 }  // namespace plumbline::campaign

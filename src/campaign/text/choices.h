@@ -1,7 +1,7 @@
 // Choices by seed: the same on every machine, for the distributions are integer arithmetic of our own (those of
 // <random> differ between libraries) on the numbers of std::mt19937_64, which the C++ standard fixes.
 //
-// Mutants of a scene are made by other choices, not by changes of the scene's text: so each mutant is a valid scene.
+// A mutant of a scene has other choices, not another text: each mutant is a valid scene.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class Choices {
   /// True in `percent` of 100 cases.
   bool chance(int percent) { return whole(0, 99) < percent; }
   /// A number in [low, high] as people write them: a multiple of 1, 1/2, 1/10 or 1/100, seldom of 1e-6; of a
-  /// finer one where the range holds none.
+  /// finer step in narrow ranges.
   double number(double low, double high);
   /// One of the words; a word written twice is twice as likely.
   std::string_view word(std::initializer_list<std::string_view> words);

@@ -88,7 +88,7 @@ constexpr std::string_view kStateKeys[] = {"transforms", "material",   "back_mat
                                            "alpha_test", "stencil",    "fog",           "scissor",     "depth_mask",
                                            "blend",      "logic_op",   "color_mask",    "texture"};
 
-/// Overwrites those parts of the state whose keys the node has.
+/// Overwrites the state of every key in the node.
 void read_state(const JsonNode& node, DrawState& state) {
   Draw& draw = state.draw;
   if (const auto n = node.find("transforms")) draw.transforms = read_transforms(*n);

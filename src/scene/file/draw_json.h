@@ -18,8 +18,8 @@ struct DrawState {
 /// `textures`: the scene's. Throws JsonError.
 DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures);
 
-/// Reads a draw's state. Keys that are left out keep the values of `defaults`; in material, back_material and texture
-/// so do the keys within, any other value is replaced as a whole. The mesh is left to read_mesh(). Throws JsonError.
+/// Reads a draw's state. Omitted keys keep the values of `defaults`, as do omitted keys within material, back_material
+/// and texture; any other value is replaced as a whole. The mesh is left to read_mesh(). Throws JsonError.
 DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures);
 
 }  // namespace plumbline

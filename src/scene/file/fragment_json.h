@@ -6,7 +6,7 @@
 
 namespace plumbline {
 
-/// Overwrites those parts of the draw's fragment state whose keys the node has. Throws JsonError.
+/// Overwrites the draw's fragment state of every key in the node. Throws JsonError.
 void read_fragment_state(const JsonNode& node, Draw& draw);
 
 }  // namespace plumbline

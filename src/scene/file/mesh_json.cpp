@@ -61,7 +61,7 @@ std::vector<glm::vec2> read_texcoords(const JsonNode& node, std::size_t count) {
 
 /// Empty where the file has none.
 std::vector<glm::vec3> read_normals(const JsonNode& node, std::size_t count) {
-  constexpr double kFromUnitLength = 1e-3;  // components of three decimals, each off by at most 5e-4: sqrt(3) * 5e-4
+  constexpr double kFromUnitLength = 1e-3;  // above sqrt(3) * 5e-4, the error of components of three decimals
   std::vector<glm::vec3> normals;
   if (const auto list = node.find("normals")) {
     for (const JsonNode& n : list->elements(count, count)) {

@@ -11,8 +11,8 @@
 namespace plumbline {
 
 /// Makes or loads the mesh that the node describes (scene.schema.json): one part; for a mesh file, one part per run of
-/// triangles of one material. More than `most_triangles` are refused: of a generator before it runs, of a mesh file
-/// when it is read; a mesh that the scene file writes out is not checked. Throws JsonError.
+/// triangles of one material. More than `most_triangles` are refused: before a generator runs, while a mesh file is
+/// read; meshes written out in the scene file are not checked. Throws JsonError.
 std::vector<MeshPart> read_mesh(const JsonNode& node, const AssetFolders& folders, std::size_t most_triangles);
 
 }  // namespace plumbline

@@ -36,8 +36,8 @@ Antialias read_antialias(const JsonNode& node, const FrameFormat& frame) {
 }
 
 // Refuses lines and points in multisampled and supersampled frames. OpenGL multisamples them as rectangles and squares
-// of their own (OpenGL 2.1, sections 3.4.4 and 3.3.1), which are not drawn here; in a supersampled frame their widths,
-// in pixels of the larger frame, would shrink.
+// (OpenGL 2.1, sections 3.4.4 and 3.3.1), which plumbline does not draw; supersampling would shrink widths and
+// sizes, which are pixels of the larger frame.
 void require_drawable(const JsonNode& frame, const Scene& scene) {
   const Antialias::Kind kind = scene.frame.antialias.kind;
   if (kind != Antialias::Kind::multisample && kind != Antialias::Kind::supersample) return;
@@ -173,7 +173,7 @@ Projection read_projection(const JsonNode* node, Dialect dialect, const Camera& 
   return Perspective{};
 }
 
-/// A mesh that is in the scene already: consecutive entries of Scene::meshes, several for a file of several materials.
+/// A mesh in Scene::meshes: consecutive entries, several for a file of several materials.
 struct KnownMesh {
   const JsonValue* json;
   std::uint32_t first;                             ///< index into Scene::meshes
@@ -247,7 +247,7 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   return scene;
 }
 
-/// Whether a file is a scene: *.json, but not *.schema.json, *.part.json or *.rubric.json.
+/// True: a file is a scene: *.json, but not *.schema.json, *.part.json or *.rubric.json.
 bool is_scene(const fs::path& file) {
   const fs::path second = file.stem().extension();
   return file.extension() == ".json" && second != ".schema" && second != ".part" && second != ".rubric";
@@ -256,14 +256,14 @@ bool is_scene(const fs::path& file) {
 }  // namespace
 
 Scene load_scene(const fs::path& file, const SceneFileOptions& options) {
-  const fs::path whole = fs::absolute(file).lexically_normal();
+  const fs::path whole = fs::absolute(file), named = whole.lexically_normal();  // which drops link/..
   std::vector<fs::path> folders = options.asset_folders;
   folders.insert(folders.begin(), whole.parent_path());
   try {
     const AssetFolders assets(std::move(folders));
     const SceneJson json(file, assets);
     Scene scene = read_scene(json.root(), assets);
-    scene.name = (whole.parent_path().filename() / whole.stem()).generic_string();
+    scene.name = (named.parent_path().filename() / named.stem()).generic_string();
     scene.path = file.string();
     scene.files = json.files();
     return scene;

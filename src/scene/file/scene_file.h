@@ -25,8 +25,8 @@ struct SceneFileOptions {
 /// here, once. Draws whose "mesh" values are equal share a mesh.
 ///
 /// A file is a patch of the files that it includes (RFC 7396, JSON merge patch; scene_json.h). Mesh files, image files
-/// and included files are searched in the scene's folder, then in the asset folders, and below these: no link and no
-/// ".." may lead out of them.
+/// and included files are searched in the scene's folder, then in the asset folders, and below; no link and no ".."
+/// may lead out of these.
 ///
 /// Scene::name is "folder/file", without the ending. Throws SceneError.
 Scene load_scene(const std::filesystem::path& file, const SceneFileOptions& options = {});

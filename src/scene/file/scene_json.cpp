@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// JSON merge patch (RFC 7396, section 2). A merged object counts as written in the patch's file.
+/// JSON merge patch (RFC 7396, section 2). A merged object takes the file of the patch.
 void patch(JsonValue& target, JsonValue&& with) {
   if (with.kind != JsonValue::Kind::object) {
     target = std::move(with);

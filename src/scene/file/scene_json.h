@@ -11,9 +11,9 @@
 
 namespace plumbline {
 
-/// A file and the files that its "include" lists, as one tree. A file is a patch of the files that it includes (RFC
-/// 7396, JSON merge patch): objects are merged key by key, null removes a key, everything else is replaced; of several
-/// includes a later one patches the earlier ones. JsonValue::file of each value names the file that it was written in.
+/// A file and the files that its "include" lists, as one tree. A file is a patch of its includes (RFC 7396, JSON merge
+/// patch): objects are merged key by key, null removes a key, everything else is replaced; of several includes a later
+/// one patches the earlier ones. JsonValue::file of each value names the file in which the value stands.
 /// Throws JsonError, also for cyclic includes, includes deeper than 8, and more than 64 files or 8 MiB in all.
 class SceneJson {
  public:
@@ -29,7 +29,7 @@ class SceneJson {
 
   std::deque<std::string> names_;             ///< a deque, as JsonValue::file points into it
   std::vector<std::filesystem::path> chain_;  ///< files being read, each included by the one before it
-  std::size_t bytes_left_ = 8u << 20;         ///< JSON that may still be read; in memory, some 100 times that
+  std::size_t bytes_left_ = 8u << 20;         ///< JSON left to read; a tree takes some 100 times as much
   JsonValue root_;
 };
 

@@ -14,12 +14,12 @@ TextureLevel make(int width, int height, Color color) {
   return out;
 }
 
-/// Number of the cell, of `cells` along `size` texels, in which texel i's centre lies; exact, in integers.
+/// Cell of texel i's centre, of `cells` along `size` texels; exact, in integers.
 int cell(int i, int size, int cells) {
   return static_cast<int>((2 * static_cast<std::int64_t>(i) + 1) * cells / (2 * static_cast<std::int64_t>(size)));
 }
 
-/// Whether texel i is the first of its cell.
+/// True: texel i is the first of its cell.
 bool begins(int i, int size, int cells) { return i == 0 || cell(i, size, cells) != cell(i - 1, size, cells); }
 
 /// Hash of an integer (Wellons' lowbias32).
