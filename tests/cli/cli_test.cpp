@@ -226,7 +226,7 @@ TEST_F(Cli, a_picture_whose_rows_count_from_the_top_stands_upright) {
   }
 }
 
-// It finds what is visible and no more: a picture shows each primitive in a colour of its own.
+// image_order finds visibility alone: its picture shows each primitive in its own colour.
 TEST_F(Cli, image_order_judges_visibility_and_draws_primitives) {
   const std::string scene = kScenes + "cull/both_windings.json";
   EXPECT_EQ(plumb("check " + scene + " --against image_order").code, 0);
@@ -316,10 +316,10 @@ TEST_F(Cli, list_names_what_there_is) {
 TEST_F(Cli, check_refuses_a_fault_that_none_is_before_it_prints) {
   const Outcome run = plumb("check " + kSharedEdges + " --fault coverage.inclusive_edge");
   EXPECT_EQ(run.code, 2);
-  EXPECT_EQ(
-      run.text,
-      "plumb: no fault 'coverage.inclusive_edge' (did you mean \"coverage.inclusive_edges\"?): plumb list faults shows "
-      "all\n");
+  EXPECT_EQ(run.text,
+            "plumb: no fault 'coverage.inclusive_edge' to put in (did you mean \"coverage.inclusive_edges\"?): plumb "
+            "list faults shows "
+            "all\n");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST_F(Compare, ends_0_where_all_holds_and_1_where_something_differs) {
   EXPECT_EQ(compare("z.exr", "z2.exr", "--tolerance 0.25").code, 0);
 }
 
-// Of captures, which are read without OpenImageIO's quarter of a second.
+// Captures load without OpenImageIO's quarter of a second.
 TEST_F(Compare, takes_a_tolerance_as_a_number_or_a_fraction) {
   Capture capture;
   capture.renderer = "mine";

@@ -18,7 +18,7 @@ class FailingRenderers : public Cli {};
 // AddressSanitizer's new ends the process instead of throwing.
 bool can_show(std::string_view ending) { return !kAddressSanitizer || ending != "memory"; }
 
-// Limits of a run: a hang is to end soon, all else may take its time on a busy machine. [s]
+// Limits of a run [s]: a hang is to end soon, all else may take its time on a busy machine.
 const std::string kHangs = kAddressSanitizer ? "30" : "4";
 std::string limits_of(const std::string& ending) {
   return " --time-limit " + (ending == "hang" ? kHangs : "60") + " --memory-limit 512";

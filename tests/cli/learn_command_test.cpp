@@ -75,7 +75,7 @@ TEST_F(Cli, a_declared_tie_rule_is_judged_by_the_frame_alone) {
   EXPECT_TRUE(run.says("coverage.top_for_bottom")) << run.text;
 }
 
-// By its records too, whose coverage exact makes by the dialect's rule.
+// Records too: exact makes their coverage by the dialect's rule.
 TEST_F(Cli, a_declared_tie_rule_is_no_difference_of_the_records) {
   const std::string scene = kScenes + "coverage/on_centres.json";
   ASSERT_EQ(plumb("capture " + scene + " " + at("capture") + " --fault coverage.top_for_bottom").code, 0);

@@ -99,7 +99,7 @@ TEST_F(Campaign, OfTwoCandidatesInOneFolderIsRefused) {
   EXPECT_EQ(run.code, 0) << "what was refused left nothing: " << run.text;
 }
 
-// What was not judged never passes.
+// Nothing judged is no pass.
 TEST_F(Campaign, ThatJudgesNothingDoesNotHold) {
   fs::create_directories(folder_ / "d/journal");
   const Outcome empty = campaign("d", "");
@@ -117,7 +117,7 @@ TEST_F(Campaign, EndsWhatAKilledOneBeganOfAFinding) {
   EXPECT_TRUE(fs::exists(finding / "scene/index.html") && fs::exists(finding / "scene.txt"));
 }
 
-// What crashes in a worker fails the rows of its renderer, and the campaign goes on.
+// A crash in a worker fails its renderer's rows, and the campaign goes on.
 TEST_F(Campaign, OfRenderersThatCrashNamesThem) {
   const Outcome reference =
       campaign("c", "--seeds 1..2 --generator hard --against embree,exact --fault endings.crash:embree:hard/2");

@@ -265,8 +265,8 @@ TEST_F(GoldenCommand, check_beside_the_references_has_a_row_for_each_stage) {
   EXPECT_TRUE(gone.says("golden                   merge      failed")) << gone.text;
 }
 
-// Whether the last process of a run that was killed gives up the goldens' lock: with AddressSanitizer's address space, on
-// a busy machine, the kernel may take seconds to end it.
+// True: the last process of a killed run has released the goldens' lock. With AddressSanitizer's address space, on a
+// busy machine, the kernel may take seconds to end it.
 bool is_released_within_a_minute(const std::string& goldens) {
   const int folder = ::open(goldens.c_str(), O_RDONLY | O_DIRECTORY);
   bool is_free = false;

@@ -23,7 +23,7 @@ std::vector<std::string> apart(const Left& a, const Left& b) {
 
 class Jobs : public Cli {
  protected:
-  // All that a run leaves, its output among it, without seconds.
+  // Files and output that a run leaves, without times.
   Left left_by(const std::string& arguments, const std::string& jobs, int code) const {
     const fs::path to = folder_ / "run";  // the same for all: paths are printed
     fs::remove_all(to);

@@ -29,7 +29,7 @@ std::vector<pid_t> processes_of(const std::string& mark) {
   return out;
 }
 
-// Whether a process of plumb's is ending: its environment is gone, and its files, with their locks, are not yet closed.
+// True: a process of plumb is ending: its environment is gone, and its files, with their locks, are not yet closed.
 // The last of its threads closes them; the first may be a zombie long before.
 bool is_one_ending() {
   for (const auto& entry : fs::directory_iterator("/proc")) {
@@ -167,7 +167,7 @@ TEST_F(KilledRuns, GoldenUpdate) {
     const std::string manifest = read(folder_ / "golden/manifest.json");
     for (const std::string kind : {"color", "depth", "stages"}) {  // the old set or the new one: whole
       const std::size_t from = manifest.find("coverage/scene/" + kind);
-      if (from == manifest.npos) continue;
+      if (from == manifest.npos) return false;
       if (!fs::exists(folder_ / "golden" / manifest.substr(from, manifest.find('"', from) - from))) return false;
     }
     std::string text = read(scene);  // so that the next run has what to write

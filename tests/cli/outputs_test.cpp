@@ -1,4 +1,4 @@
-// What plumb writes: proven writable before the work, whole or not at all, and never over what is not its own.
+// Outputs of plumb: proven writable before the work, whole or not at all, and never over others' files.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -46,7 +46,7 @@ TEST_F(Outputs, that_cannot_be_written_end_the_run_before_the_work) {
     EXPECT_TRUE(run.says(bad.path)) << arguments << "\n" << run.text;
     EXPECT_TRUE(run.says(bad.reason)) << bad.reason << " in " << run.text;
     EXPECT_FALSE(run.says("filesystem error")) << run.text;
-    EXPECT_FALSE(run.says("exact from")) << "refused after the work";
+    EXPECT_FALSE(run.says("exact, ")) << "refused after the work";
     EXPECT_EQ(entries(), before) << arguments;
   };
   const std::string long_name(300, 'n');
@@ -210,7 +210,7 @@ TEST_F(Outputs, capture_and_report_leave_other_folders_alone) {
     const Outcome run = plumb(command);
     EXPECT_EQ(run.code, 2) << why << "\n" << run.text;
     EXPECT_TRUE(run.says(at("it")) && run.says("left alone")) << run.text;
-    EXPECT_FALSE(run.says("exact from")) << "refused after the work";
+    EXPECT_FALSE(run.says("exact, ")) << "refused after the work";
     EXPECT_EQ(entries(), before) << why;
   };
   EXPECT_EQ(plumb(capture).code, 0);

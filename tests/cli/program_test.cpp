@@ -1,5 +1,4 @@
-// Another renderer, judged by its command line: what it is given, what becomes of what it leaves, and the suite's
-// summary.
+// Another renderer, run by a command line: its input, what becomes of its output, and the suite's summary.
 #include <fstream>
 #include <regex>
 
@@ -82,7 +81,7 @@ TEST_F(Cli, program_that_fails_leaves_no_page_of_an_earlier_run) {
   EXPECT_TRUE(fs::exists(at("page/index.html")));
 }
 
-// What refuses the scene lies in another file of the program than main().
+// Another file of the program than main()'s refuses the scene.
 TEST_F(Cli, program_of_several_files_may_refuse_a_scene_in_any_of_them) {
   const Outcome run =
       plumb("check " + kScenes + "light/reflection_colors.json " + kSharedEdges + " --program " + kRecorder);

@@ -13,7 +13,7 @@ namespace plumbline::mutation {
 
 namespace {
 
-// Whether the statement has no effect on a picture: it throws, reserves memory, or is evaluated by the compiler.
+// True for statements without effect on a picture: throws, reservations of memory, compile-time evaluation.
 bool is_left_alone(const Source& s, std::size_t first, std::size_t last) {
   static const std::set<std::string_view> kWords = {"throw",
                                                     "static_assert",
@@ -42,8 +42,8 @@ bool is_left_alone(const Source& s, std::size_t first, std::size_t last) {
   return false;
 }
 
-// Whether the statement holds something to change: outside of functions a constexpr definition; within one a return, a
-// condition, an assignment, a comparison or a call.
+// True for statements that can be changed: outside functions, constexpr definitions; inside, a return, a condition, an
+// assignment, a comparison or a call.
 bool may_change(const Source& s, std::size_t first, std::size_t last) {
   const auto begin = s.tokens.begin() + static_cast<std::ptrdiff_t>(first);
   const auto end = s.tokens.begin() + static_cast<std::ptrdiff_t>(last) + 1;
@@ -55,7 +55,7 @@ bool may_change(const Source& s, std::size_t first, std::size_t last) {
   return std::any_of(begin, end, [](const Token& t) { return t.text.ends_with('=') || t.text == "("; });
 }
 
-// From the statement's first token to the one before its end.
+// Index of the statement's last token before its end.
 std::size_t last_of_statement(const Source& s, std::size_t first) {
   std::size_t i = first;
   while (i + 1 < s.tokens.size() && s.tokens[i + 1].statement == first && s.word(i + 1) != ";" &&

@@ -55,9 +55,10 @@ Judge::Judge(fs::path programs, fs::path scenes, fs::path out)
     : programs_(std::move(programs)), scenes_(std::move(scenes)), out_(std::move(out)) {
   fs::create_directories(out_);
   as_it_is_ = hashes(programs_, {scenes_.string()}, out_ / "scenes.tsv");
-  if (!as_it_is_.stopped.empty() || as_it_is_.of.empty()) {
-    throw std::runtime_error(
-        fmt::format("the scenes cannot be drawn by the sources as they are: {}", as_it_is_.stopped));
+  const auto failed = std::ranges::find_if(as_it_is_.of, [](const auto& of) { return of.second.failed(); });
+  if (!as_it_is_.stopped.empty() || as_it_is_.of.empty() || failed != as_it_is_.of.end()) {
+    throw std::runtime_error(fmt::format("the scenes cannot be drawn by the sources as they are: {}{}",
+                                         as_it_is_.stopped, failed == as_it_is_.of.end() ? "" : failed->first));
   }
 }
 

@@ -1,4 +1,4 @@
-// What comes of a change: who sees it, on which scene, and which stage is named.
+// Verdict on a change: who sees it, on which scene, and which stage is named.
 #pragma once
 
 #include <filesystem>
@@ -38,7 +38,7 @@ struct Verdict {
   std::string note;  ///< one line: how plumb ended, the reason of an equivalent, what random scenes say
 
   bool found() const { return outcome <= Outcome::tables; }
-  /// Whether check and diagnose name what they should.
+  /// True: an expected stage is named.
   bool named_by_check() const;
   bool named_by_diagnose() const;
 };

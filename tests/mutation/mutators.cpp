@@ -115,7 +115,7 @@ std::size_t end_of_item(const Source& s, std::size_t i, std::size_t close) {
   return i - 1;
 }
 
-// Whether tokens of the same kinds stand in both: arguments of other shapes are seldom of one type.
+// True: both have tokens of the same kinds. Arguments of other shapes are seldom of one type.
 bool alike(const Source& s, std::size_t a, std::size_t a_last, std::size_t b, std::size_t b_last) {
   if (a_last - a != b_last - b) return false;
   for (; a <= a_last; ++a, ++b) {

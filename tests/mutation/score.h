@@ -32,8 +32,8 @@ struct Score {
   std::size_t in_painter = 0, picture = 0;  ///< of those found in files of the painter; `picture` and nothing else
 };
 Score score_of(const std::vector<Judged>& judged);
-/// Whether there are at least 200 changes, at most 12 % of them equivalent, at least 97 % of the others found, and at
-/// least 93 % of those in stages named rightly; of the painter's that are found, all by the row `picture` alone.
+/// True: at least 200 changes, at most 12 % of them equivalent, at least 97 % of the others found, at least 93 % of
+/// those in stages named rightly; of the painter's that are found, all by the row `picture` alone.
 bool holds(const Score& score);
 
 /// The table by stage, the changes that were not found, those that were named otherwise, and the shares.

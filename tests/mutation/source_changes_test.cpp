@@ -214,7 +214,7 @@ TEST(SourceChanges, ScenesAreAffectedByAnyBit) {
   EXPECT_TRUE(scenes[2].picture_alone);
 }
 
-// So many changes in files of that rule, each of that outcome and named so.
+// Adds `count` changes in files of the rule, of that outcome and name.
 void add(std::vector<Judged>& to, const FileRule& rule, std::size_t count, Outcome outcome, const std::string& name) {
   for (std::size_t i = 0; i < count; ++i) {
     Judged j;

@@ -44,7 +44,7 @@ class Scanner {
     } while (true);
   }
 
-  // Whether a token follows.
+  // True: a token follows.
   bool skip_space() {
     while (at_ < source_.size()) {
       const char c = source_[at_];

@@ -22,8 +22,8 @@ void write_text(const fs::path& file, const std::string& text) {
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
 }
 
-// All that git knows, or would add, but the goldens. What is the same stays untouched, so that no more is built than
-// has changed.
+// Copies all files that git knows, or would add, but the goldens. Equal files stay untouched: only changes are
+// rebuilt.
 void copy_sources(const fs::path& root, const fs::path& tree, const fs::path& list) {
   const std::vector<std::string> git = {
       "git",      "-C",       root.string(),        "-c",           "core.quotePath=off", "ls-files",

@@ -34,7 +34,7 @@ Scene flat_scene(const std::vector<std::array<glm::vec2, 3>>& triangles, float z
   return scene;
 }
 
-/// All of them seen: the background won everywhere.
+/// Prediction where nothing hides a side.
 double predicted(const Scene& scene) {
   return ambiguous_by_edges(scene, project(scene), Plane<std::int32_t>(64, 64, kBackground));
 }

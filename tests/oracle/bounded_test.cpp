@@ -1,5 +1,5 @@
-// Numbers known to a bound: whatever is within it comes to a result within the result's, and the bound is no wider than
-// what its ends come to.
+// Bounded numbers: results of values within the bounds lie within the result's bound, which is no wider than the
+// results at the ends.
 #include "reference/arithmetic/bounded.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace plumbline::math {
 namespace {
 
-// The least and the most that `f` comes to at the ends of three numbers.
+// Least and greatest value of `f` at the ends of three numbers.
 std::pair<double, double> at_ends(const Bounded (&in)[3], const std::function<double(double, double, double)>& f) {
   double least = HUGE_VAL, most = -HUGE_VAL;
   for (int ends = 0; ends < 8; ++ends) {

@@ -161,7 +161,7 @@ TEST(OracleConventions, ACoarserGridLeavesMorePixelsOpen) {
   EXPECT_LE(without, 1u) << "no centre lies on an edge";
 }
 
-// By the error of the declared arithmetic to either side; of a triangle that is cut, by that of its pieces.
+// Slack to either side: the declared arithmetic's error; of a cut triangle, that of its pieces.
 TEST(OracleConventions, DepthsInFloatLieWithinTheErrorOfTheirArithmetic) {
   using enum C::DepthArithmetic;
   constexpr int kX = 12, kY = 11;
@@ -255,7 +255,7 @@ TEST(OracleConventions, WithoutPerspectiveColoursGoByTheWindow) {
   EXPECT_NEAR(legal(scene, {}).at(16, 16)[0].color.r, (s / 16) / ((1 - s) / 2 + s / 16), 1e-5);
 }
 
-// Where a triangle is cut, an inclusive rule covers a sample by both pieces beside a diagonal, nobody knows which.
+// Of a cut triangle, an inclusive rule covers samples on a diagonal by both pieces; which diagonal is unknown.
 TEST(OracleConventions, AnInclusiveRuleCoversByBothPiecesBesideADiagonal) {
   const Scene scene = window_scene({{glm::vec3(-20, -20, 0.5f), {100, -20, 0.5f}, {10, 60, 0.5f}}});
   C inclusive, left_bottom;
@@ -347,8 +347,8 @@ TEST(OracleConventions, ADeclaredTieRuleSettlesSamplesOnEdges) {
   }
 }
 
-// Where the grid is not the renderer's own, or float arithmetic decides to which of its places a corner goes, samples
-// on edges stay open.
+// Samples on edges stay open where the grid is unknown, or float arithmetic decides to which grid point a corner
+// snaps.
 TEST(OracleConventions, ATieRuleSettlesNothingWithoutPlaces) {
   const Scene scene = window_scene(kSquare);
   const std::size_t any = open_pixels(legal(scene, {}));

@@ -9,12 +9,12 @@
 
 namespace plumbline::pipeline {
 
-/// Each of n items; the k-th number of all items stands from k * n on, in what is read and what is written. n: a
-/// multiple of every width.
+/// Kernels over n items in columns: number k of all items begins at k * n, in input and output. n: a multiple of every
+/// lane width.
 struct Kernels {
   void (*words)(std::size_t n, const float* in, float* out);                              ///< of a, b: kWords
   void (*sample)(const TextureSetup& setup, std::size_t n, const float* in, float* out);  ///< of s, t, lod
-  /// Of a fragment's colour, normal and position.
+  /// Inputs: colour, normal and position.
   void (*lit)(const FragmentLight& light, LitPart part, std::size_t n, const float* in, float* out);
   void (*blend)(const Blend& state, float scale, std::size_t n, const float* in, float* out);  ///< source, stored
 };
@@ -32,7 +32,7 @@ struct Columns {
     store(R(0) == R(0), value, out + i);
     out += n;
   }
-  /// In three pieces, none of its bits lost.
+  /// Stores all bits, in three floats.
   void put_wide(const Wide<R>& value) {
     const R high = to_float(value);
     const Wide<R> rest = value - to_wide(high);

@@ -25,7 +25,7 @@
 namespace plumbline::pipeline {
 namespace {
 
-// One for each target, and for some numbers of threads of the widest.
+// A painter per SIMD target, and the widest on 2, 3, 5 and 8 threads.
 std::map<std::string, std::unique_ptr<Painter>> painters() {
   std::map<std::string, std::unique_ptr<Painter>> out;
   for (const SimdTarget& target : simd_targets()) {
@@ -37,7 +37,7 @@ std::map<std::string, std::unique_ptr<Painter>> painters() {
   return out;
 }
 
-// All scenes and all passes of theirs; painters keep their memory from one to the next, whatever its size.
+// Every scene (in a run one of 6) and pass; painters keep their memory between scenes of any size.
 TEST(Painter, DrawsEverySceneAsItsDefinitionDoes) {
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   const std::vector<std::filesystem::path> files = find_scenes(folder);
@@ -59,7 +59,7 @@ TEST(Painter, DrawsEverySceneAsItsDefinitionDoes) {
   std::printf("%zu frames compared, by %zu painters\n", compared, all.size());
 }
 
-// From large triangles to those smaller than pixels; nearer ones first and last.
+// Triangles from large to smaller than pixels; nearer ones first and last.
 TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
   const Stages stages = production_stages();
   const auto all = painters();
@@ -272,7 +272,7 @@ TEST(Painter, TakesTheLeastLevelAtTheHorizon) {
   for (const auto& [name, painter] : painters()) EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name;
 }
 
-// The same surface twice: of two fragments as near as each other the first stays, whichever way tiles are painted.
+// Equal surfaces: of two fragments of one depth the first stays, in whichever order tiles are painted.
 TEST(Painter, KeepsTheFirstOfEquallyNearFragments) {
   const Stages stages = production_stages();
   const auto all = painters();

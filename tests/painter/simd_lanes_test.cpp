@@ -16,7 +16,7 @@ namespace {
 using Numbers = std::vector<float>;
 using Limits = std::numeric_limits<float>;
 
-/// Of a range, and now and then (one in eight) any number at all, or one of those where functions turn.
+/// Numbers of a range; one in eight is any float, or one of those where functions turn.
 class Source {
  public:
   float operator()(float low, float high) {
@@ -140,13 +140,13 @@ TEST(SimdLanes, LightAsFloatDoes) {
   light.spot->cutoff_degrees = 40;
   light.spot->exponent = 3;
   scene.lights.push_back(light);
-  for (int state = 0; state < 6 * 3 * 16; ++state) {
+  for (int state = 0; state < 6 * 3 * 32; ++state) {
     draw.color_material = static_cast<ColorMaterial>(state % 6);
     scene.light_model.sides = static_cast<LightModel::Sides>(state / 6 % 3);
     scene.light_model.specular = static_cast<LightModel::Specular>(state / 18 % 2);
     scene.light_model.local_viewer = state / 36 % 2 == 1;
     scene.light_model.separate_specular = state / 72 % 2 == 1;
-    const LitPart part{state / 144 % 2 == 1, scene.light_model.separate_specular && state % 2 == 1};
+    const LitPart part{state / 144 % 2 == 1, scene.light_model.separate_specular && state / 288 % 2 == 1};
     const FragmentLight lights = fragment_light(scene, draw, light_sources(scene));
     expect_same(4, in, "state " + std::to_string(state),
                 [&](const Kernels& k, float* out) { k.lit(lights, part, kItems, in.data(), out); });

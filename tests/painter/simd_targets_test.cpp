@@ -82,7 +82,7 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
   return frame;
 }
 
-// By each kernel that may paint it, of every target.
+// Every kernel that may paint them, of every target.
 void expect_same(const Triangles& triangles, const FrameFormat& format, const std::string& what,
                  bool any_long_edge = true) {
   Draw draw, over, depth_only;
@@ -163,7 +163,7 @@ TEST(SimdTargets, PaintRandomTriangles) {
   }
 }
 
-// By the definition's area and bounds (geometry.h, coverage.h), of triangles of all sizes that fit a frame, some of no
+// Kept triangles, by the definition's area and bounds (geometry.h, coverage.h): all sizes that fit a frame, some of no
 // area; seen from the centre, and from all samples.
 TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
   std::mt19937 random(9);
@@ -213,7 +213,7 @@ TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
 
 TEST(SimdTargets, BeginWithFloat) { EXPECT_EQ(simd_targets()[0].name, "float"); }
 
-// What the linker may put in the place of others of its name is this target's own.
+// Symbols that the linker may merge bear their own target's name.
 TEST(SimdTargets, NoneOfTheirFunctionsAreSharedWithOtherCode) {
   const std::pair<std::string, std::string> objects[] = {
       {"sse4", PLUMBLINE_OBJECT_sse4}, {"avx2", PLUMBLINE_OBJECT_avx2}, {"avx512", PLUMBLINE_OBJECT_avx512}};

@@ -195,7 +195,7 @@ TEST(Causes, EachThatCanBeMadeIsTold) {
   }
 }
 
-// In a frame of one row, several mistakes move all samples out of it.
+// A frame of one row, out of which several mistakes move all samples.
 TEST(Causes, NoneIsNamedWhereNothingIsLeft) {
   const auto exact = exact::make_exact();
   const Scene scene = suite_scene("frame/row");

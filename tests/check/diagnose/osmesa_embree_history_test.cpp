@@ -1,4 +1,4 @@
-// What OpenGL and the oracle tell of a pixel's fragments, beside ours.
+// Pixel histories of OpenGL and the oracle, beside ours.
 #include "check/diagnose/history.h"
 #include "reference/embree/embree.h"
 #include "reference/osmesa/osmesa.h"
@@ -76,8 +76,7 @@ TEST_F(All, opengl_tells_texels_and_no_level) {
   EXPECT_EQ(renderers[2].lacks.at("texel"), "a ray sees the final colour; see shade");
 }
 
-// At the frames' middle, and a quarter from their corners.
-// In a run one pixel of most, in the long form three of each.
+// Pixels at the frame's middle and at two quarters of its diagonal: in a run one of most scenes, else all three.
 TEST_F(All, scenes_of_the_suite) {
   std::size_t next = 0;
   for (const char* name : {"stencil/everything", "stencil/funcs", "depth/interpenetrating", "depth/functions",

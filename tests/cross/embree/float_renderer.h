@@ -81,7 +81,7 @@ class FloatRenderer {
       } else {
         v.clip = habits_.by_eye ? projection * (view * p) : both * p;
       }
-      // The same position must move in the same way wherever it occurs in the mesh.
+      // Equal positions must move equally wherever they occur in the mesh.
       Random wobble(
           static_cast<unsigned>(std::hash<float>{}(p.x) * 31 + std::hash<float>{}(p.y) * 7 + std::hash<float>{}(p.z)));
       for (int c = 0; c < 4 && habits_.jitter > 0; ++c) {

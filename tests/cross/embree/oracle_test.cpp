@@ -46,7 +46,7 @@ TEST_P(Finders, RaysAndBoxesComeToTheSameAnswers) {
   }
 }
 
-// On all scenes of a kind together: single small ones have too few ambiguous pixels to count.
+// Sums over all scenes of a kind: a single small scene has too few ambiguous pixels.
 TEST_P(Finders, AmbiguousPixelsAreAtMostTwiceThePrediction) {
   double counted = 0, predicted = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {

@@ -131,7 +131,7 @@ TEST(ExactCoverage, RefusesWhatWouldNotFit) {
 
 constexpr std::int64_t kMove = 1 << 16;  // 1/e; more than any difference of the coordinates below
 
-/// Whether pixel (x, y)'s moved centre lies inside the polygon, by the parity of the edges that a ray to the right
+/// True: pixel (x, y)'s moved centre lies inside the polygon, by the parity of the edges that a ray to the right
 /// crosses, all times kMove^2.
 bool inside(const std::vector<glm::ivec2>& polygon, int x, int y) {
   const Int128 px = Int128{x} * kSubpixel * kMove * kMove + kMove, py = Int128{y} * kSubpixel * kMove * kMove + 1;

@@ -30,7 +30,7 @@ std::int32_t winner(const Scene& scene, const Records<double>& records) {
 }
 
 TEST(ExactVisibility, EachDepthFunction) {
-  // In the order of kFuncs: does an incoming fragment nearer than, equal to, farther than the stored one pass?
+  // Rows in kFuncs' order: whether a fragment nearer than, equal to, farther than the stored one passes.
   constexpr std::array<std::array<bool, 3>, 8> kPasses = {{{false, false, false},
                                                            {true, false, false},
                                                            {false, true, false},

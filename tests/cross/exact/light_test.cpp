@@ -44,7 +44,7 @@ TEST_F(Lamp, EmissionAndAmbientTermsAdd) {
   scene.lights[0].ambient = {0.5f, 0, 0.5f};
   scene.lights[0].diffuse = glm::vec3(0);
   scene.lights.push_back(scene.lights[0]);
-  // Also with the light behind: its ambient term stays.
+  // The light is behind; its ambient term stays.
   expect_near(color({0, 0, -1}), {0.125 + 0.125 + 2 * 0.25, 0.25, 0.25 + 2 * 0.125, 0});
 }
 

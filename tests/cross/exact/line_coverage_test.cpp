@@ -49,7 +49,7 @@ TEST(ExactLineCoverage, a_diamond_owns_its_right_corner_and_right_sides) {
   EXPECT_FALSE(leaves(-64, -64));
   EXPECT_FALSE(leaves(0, 128));
   EXPECT_FALSE(leaves(0, -128));
-  // What ends in a diamond does not produce it; what ends on a border that is not its own does.
+  // A line that ends in a diamond does not produce it; one that ends on a foreign border does.
   EXPECT_FALSE(produces({-500, 256}, centre, pixel));
   EXPECT_FALSE(produces({-500, 256}, centre + glm::i64vec2(128, 0), pixel));
   EXPECT_TRUE(produces({-500, 256}, centre + glm::i64vec2(129, 0), pixel));
@@ -88,7 +88,7 @@ TEST(ExactLineCoverage, agree_on_random_lines) {
   std::mt19937 random(4);
   std::int64_t pixels = 0;
   for (int i = 0; i < 100'000; ++i) {
-    // Of all sizes, half of them of even coordinates, so that ties are met; some far outside.
+    // All sizes; half of them in multiples of half a pixel, so that ties occur; some far off.
     const int reach = 64 << (i % 9), even = i % 2 == 0 ? 1 : 128;
     std::uniform_int_distribution<int> coordinate(-reach / even - 1, reach / even + 1), near(-300, 32 * 256 + 300);
     const glm::i64vec2 a(near(random) / even * even, near(random) / even * even);
@@ -145,7 +145,7 @@ TEST(ExactLineCoverage, ends_as_far_away_as_they_may_be) {
   EXPECT_THROW(diamond_exit_line({0, 0}, {0, kFar + 1}, {32, 32}), std::invalid_argument);
 }
 
-// What the comparison must refuse: the same lines drawn by rules that are nearly right.
+// Rules that are nearly right: the comparison must refuse their lines.
 TEST(ExactLineCoverage, refuses_rules_that_are_nearly_right) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> coordinate(0, 32 * 4);

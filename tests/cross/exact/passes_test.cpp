@@ -1,5 +1,5 @@
-// What the renderer, the references and the judges each have of their own: passes and samples of antialiased scenes,
-// the numbers of draws, the unit of polygon offsets. All three must say the same.
+// Passes and samples of antialiased scenes, and the numbers of draws: renderer and references compute them apart, and
+// must agree.
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -31,7 +31,7 @@ struct Row {
   double rms() const { return std::sqrt(sum_of_squares / pixels); }
 };
 
-// Of the pixels that a triangle covers in part.
+// Adds the errors of partly covered pixels.
 void measure(const raster::Corners& corners, const Antialias& antialias, Row& row) {
   const auto p_win = [&](std::size_t i) { return glm::vec3(glm::vec2(corners[i]) / 256.0f + 0.5f, 0.5f); };
   Scene scene = test::window_scene(kFrameSize, kFrameSize, {{p_win(0), p_win(1), p_win(2)}});

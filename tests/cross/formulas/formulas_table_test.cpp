@@ -20,13 +20,13 @@ namespace {
 using exact::Int128;
 using raster::Corners;
 
-/// x and y in 1/256 pixel; wide enough for whatever is done with them.
+/// x and y [1/256 pixel], wide enough for all products here.
 struct Point {
   Int128 x, y;
 };
 Point point(glm::ivec2 p) { return {p.x, p.y}; }
 
-// The note's own words, each once: what an edge from p to q says of (x, y).
+// The notes' edge functions: the value of the edge from p to q at (x, y).
 template <class P>
 auto f(const P& i, const P& j, const P& p) {
   return (i.y - j.y) * p.x + (j.x - i.x) * p.y + i.x * j.y - j.x * i.y;
@@ -65,7 +65,7 @@ pipeline::ShadedTriangle triangle_within(Inputs& r, int reach) {
 
 constexpr int kFarthest = 16384 * 256;
 
-/// Edge i of edges_of at a pixel, without what the tie rule takes away: twice an area in 1/65536 pixel.
+/// Edge function i at a pixel, without the tie rule's offset: twice an area [1/65536 pixel^2].
 std::int64_t value_at(const pipeline::Edges& e, int i, int x, int y) {
   const bool owned = e.step_x[i] > 0 || (e.step_x[i] == 0 && e.step_y[i] > 0);
   return e.at_origin[i] + e.step_x[i] * x + e.step_y[i] * y + (owned ? 0 : 1);
@@ -104,7 +104,7 @@ Row step_row(const char* formula, const char* ours, bool along_x) {
 
 int sign_of(Int128 v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
-/// The side of p -> q; of a point on it, that of the point moved to the right a hair, and up by a hair of that.
+/// Side of p -> q; a point on the line counts as moved to the right a hair, and up by a hair of that.
 int side(Expression e, Point p, Point q, Point at) {
   for (const Point moved : {at, Point{at.x + 1, at.y}, Point{at.x, at.y + 1}}) {
     if (const int s = sign_of(e(p, q, moved)); s != 0) return s;

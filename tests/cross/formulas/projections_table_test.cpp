@@ -150,7 +150,7 @@ WideMat4 x_pi(Wide d) {
   const WideMat4 halved = glm::translate(kOne, WideVec3(0, 0, 0.5L)) * glm::scale(kOne, WideVec3(1, 1, 0.5L));
   return halved * eye * (1 / d);
 }
-// The same, turned round to look down -z, z not divided by c.
+// x_pi turned round to look down -z, z not divided by c.
 WideMat4 tiny(Wide c) { return glm::scale(kOne, WideVec3(1, 1, -c)) * x_pi(c) * glm::scale(kOne, WideVec3(1, 1, -1)); }
 
 std::vector<Row> view_plane_rows() {

@@ -123,8 +123,8 @@ View view(Inputs& r) {
   }
 }
 
-// What is at right angles to two directions is known to 1/sine of what they are known to: nothing but more digits
-// helps.
+// A normal to two directions has 1/sine of their relative error, sine being that of their angle: only more digits
+// help.
 double magnitude(const View& v) { return std::max(1.0, glm::length(v.eye)) / v.sine; }
 
 using LookAt = glm::dmat4 (*)(const glm::dvec3&, const glm::dvec3&, const glm::dvec3&);

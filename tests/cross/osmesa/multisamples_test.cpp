@@ -1,4 +1,4 @@
-// OpenGL's multisampling, as OSMesa has it: what of it our passes rely on.
+// OSMesa's multisampling: the behaviour that our passes rely on.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(OsmesaMultisamples, TheResolvedColourIsOursAndHalvesGoBothWays) {
   EXPECT_GT(down, 100) << "neither up nor to even: a matter of the sum's order";
 }
 
-// Of 24 bits, Mesa's blit makes a float and a code of it again: at most a code more. Our reading undoes the first.
+// Mesa's blit turns 24-bit depths into floats and back: a code more at most. Our reading undoes the first step.
 TEST(OsmesaMultisamples, TheResolvedDepthIsSampleZeros) {
   for (const DepthFormat format : {DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
     Scene scene = soup(30, 3);

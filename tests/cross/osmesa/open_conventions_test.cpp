@@ -17,10 +17,17 @@ namespace {
 
 using C = Conventions;
 
-// Our renderer as another's, of the declared conventions.
-class Anothers : public Renderer {
+// Texture stage, if another than ours, and whether polygon offsets are half of ours.
+struct Difference {
+  decltype(pipeline::Stages::texture) texture = nullptr;
+  bool half_offsets = false;
+};
+
+// Our renderer as a foreign one, of the declared conventions.
+class ForeignRenderer : public Renderer {
  public:
-  Anothers(pipeline::Stages stages, C declared) : inner_(pipeline::make_pipeline(stages)), declared_(declared) {}
+  ForeignRenderer(pipeline::Stages stages, bool half_offsets, C declared)
+      : inner_(pipeline::make_pipeline(stages)), half_offsets_(half_offsets), declared_(declared) {}
   RendererInfo info() const override {
     RendererInfo out = inner_->info();
     out.profile = Profile::foreign;
@@ -30,20 +37,21 @@ class Anothers : public Renderer {
     return out;
   }
   Capture capture(const Scene& scene, const Request& request) override {
-    return inner_->capture(declared_.offset_unit.x == 1 ? test::with_half_of_offsets(scene) : scene, request);
+    return inner_->capture(half_offsets_ ? test::with_half_of_offsets(scene) : scene, request);
   }
 
  private:
   std::unique_ptr<Renderer> inner_;
+  bool half_offsets_;
   C declared_;
 };
 
 // Number of rows that fail.
-int failures(const std::string& name, decltype(pipeline::Stages::texture) texture, const C& declared) {
+int failures(const std::string& name, const Difference& difference, const C& declared) {
   const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name, {});
   pipeline::Stages stages = pipeline::production_stages();
-  if (texture != nullptr) stages.texture = texture;
-  Anothers candidate(stages, declared);
+  if (difference.texture != nullptr) stages.texture = difference.texture;
+  ForeignRenderer candidate(stages, difference.half_offsets, declared);
   const auto osmesa = make_opengl();
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"osmesa", osmesa.get()}, {"exact", exact.get()}};
@@ -58,42 +66,42 @@ int failures(const std::string& name, decltype(pipeline::Stages::texture) textur
   return failed;
 }
 
-void expect_right_if_declared(const std::string& name, decltype(pipeline::Stages::texture) texture, const C& declared) {
-  EXPECT_EQ(failures(name, texture, declared), 0) << name;
-  EXPECT_GT(failures(name, texture, C()), 0) << name;
+void expect_right_if_declared(const std::string& name, const Difference& difference, const C& declared) {
+  EXPECT_EQ(failures(name, difference, declared), 0) << name;
+  EXPECT_GT(failures(name, difference, C()), 0) << name;
 }
 
 TEST(OpenConventions, LevelsOfDetailMayBeApproximated) {
   C declared;
   declared.level_of_detail = C::LevelOfDetail::approximate;
-  expect_right_if_declared("texture/floor_linear_mipmap_linear.json", test::by_largest_rho, declared);
-  expect_right_if_declared("texture/floor_linear_mipmap_nearest.json", test::by_largest_rho, declared);
+  expect_right_if_declared("texture/floor_linear_mipmap_linear.json", {test::by_largest_rho}, declared);
+  expect_right_if_declared("texture/floor_linear_mipmap_nearest.json", {test::by_largest_rho}, declared);
 }
 
 TEST(OpenConventions, MagnificationMayEndAtZero) {
   C declared;
   declared.magnified = C::Magnified::up_to_zero;
-  expect_right_if_declared("texture/wall_switch_over.json", test::magnified_up_to_zero, declared);
+  expect_right_if_declared("texture/wall_switch_over.json", {test::magnified_up_to_zero}, declared);
 }
 
 TEST(OpenConventions, EitherLevelMayBeNearestHalfWay) {
   C declared;
   declared.half_way_level = C::HalfWay::either;
-  expect_right_if_declared("texture/half_way_levels.json", test::half_way_up, declared);
+  expect_right_if_declared("texture/half_way_levels.json", {test::half_way_up}, declared);
 }
 
 TEST(OpenConventions, WeightsMayHaveFewBits) {
   C declared;
   for (const int bits : {6, 8}) {  // 8 is what plumb learn finds (learn_textures_test.cpp)
     declared.texture_bits = bits;
-    expect_right_if_declared("texture/board_linear.json", test::weights_of_6_bits, declared);
+    expect_right_if_declared("texture/board_linear.json", {test::weights_of_6_bits}, declared);
   }
 }
 
 TEST(OpenConventions, APolygonOffsetsUnitMayBeOneCode) {
   C declared;
   declared.offset_unit = {1, 1};
-  EXPECT_EQ(failures("polygon_offset/steps.json", nullptr, declared), 0);
+  expect_right_if_declared("polygon_offset/steps.json", {nullptr, true}, declared);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(OsmesaPlanes, CountsATrianglesPixels) {
                                                           "........"}));
 }
 
-// From centre to centre: the left and the bottom edge are in, the right and the top one are not.
+// A rectangle from centre to centre: left and bottom edges are in, right and top ones are out.
 TEST(OsmesaPlanes, LeftAndBottomEdgesAreIn) {
   Scene scene = pixel_scene(6, 5);
   add(scene, rectangle(1.5f, 1.5f, 4.5f, 3.5f, 0));

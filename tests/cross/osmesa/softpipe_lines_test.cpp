@@ -1,5 +1,5 @@
 // Mesa's other driver draws lines by Bresenham's algorithm, half open, between the pixels that their ends lie in: a
-// third rule, whose pixels can be told beforehand. In a process of its own: this program makes no llvmpipe context.
+// third rule, whose pixels are known beforehand. ctest gives the suite a process without an llvmpipe context.
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace plumbline::test {
 namespace {
 
-// In integers. An exact tie goes E, the pixel nearer to the start.
+// In integers. An exact tie takes the diagonal step (NE).
 Pixels bresenham(glm::ivec2 a, glm::ivec2 b) {
   const glm::ivec2 d = glm::abs(b - a), step(b.x < a.x ? -1 : 1, b.y < a.y ? -1 : 1);
   const int major = d.x > d.y ? 0 : 1, minor = 1 - major;

@@ -112,7 +112,7 @@ TEST(OsmesaState, TellsWhatItShows) {
   EXPECT_THROW(make_opengl(MesaDriver::softpipe), RendererFailed);
 }
 
-// Which centres lie within the snapped edges, or on one that is left or at the bottom.
+// Counts pixels whose centre is within the snapped edges, or on a left or bottom one.
 void paint(const WindowTriangle<double>& t, Plane<std::uint32_t>& count, Plane<std::uint64_t>& id_sum) {
   using P = glm::i64vec2;
   const auto edge_in = [](const P& a, const P& b, const P& p) {  // counter-clockwise: inside is on the left

@@ -1,4 +1,4 @@
-// The same formulas beside OpenGL's own matrix functions, read back. Mesa holds and computes in float, so the unit is a
+// The notes' matrices beside OpenGL's own functions, read back. Mesa holds and computes in float, so the unit is a
 // float's ULP. One rounding of e may cost u |e|, u = 2^-24, which is at most an ULP of e, and half an ULP of 1. A bound
 // allows that many roundings, all at their worst and all in one direction: of the long chains, an axis' and a camera's,
 // random inputs see a third and less. What is handed over is a float already, unless it says otherwise.

@@ -7,7 +7,7 @@
 
 namespace plumbline::mutation {
 
-/// The same for the same seed and number.
+/// Deterministic in seed and number.
 Scene random_scene_of(std::uint64_t seed, int number);
 
 }  // namespace plumbline::mutation
