@@ -1,5 +1,5 @@
-// Stages 6 and 7 where the barycentric coordinates are given: in a triangle whose corners are (0, 0), (1, 0) and (0,
-// 1), the place itself.
+// Stages 6 and 7 at given barycentric coordinates: positions in a triangle of corners (0, 0), (1, 0) and (0, 1) are
+// their own weights.
 #pragma once
 
 #include "kernels/attributes.h"

@@ -1,4 +1,4 @@
-// How much of a long campaign a run takes.
+// The part of a campaign that a run takes.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace plumbline {
 
-/// With PLUMBLINE_ALL in the environment (the tests of label "slow": scripts/test all) each case, else one of `every`.
+/// Stride over cases: 1 with PLUMBLINE_ALL in the environment (label "slow": scripts/test all), else `every`.
 inline std::size_t one_of(std::size_t every) { return std::getenv("PLUMBLINE_ALL") != nullptr ? 1 : every; }
 
 }  // namespace plumbline

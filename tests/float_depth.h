@@ -9,7 +9,7 @@ namespace plumbline::test {
 
 enum class FloatDepth { none, edge_functions, plane, edge_equations };
 
-/// At p [pixel]; NaN or infinite where the area is 0 in float. Not of FloatDepth::none.
+/// Depth at p [pixels]; NaN or infinite where the area is 0 in float. `way`: not none.
 inline float depth_in_float(FloatDepth way, const WindowCorners& corners, const glm::vec2& p) {
   const std::array<glm::vec3, 3> v = {glm::vec3(corners[0]), glm::vec3(corners[1]), glm::vec3(corners[2])};
   const auto cross = [](const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b.x; };

@@ -1,6 +1,6 @@
 #!/bin/sh
-# judge_scenes.sh JSON COMMAND...: plumb check of some scenes. What differs (1) fails its scene's test; that they could be
-# judged, to the end, is this one's.
+# judge_scenes.sh JSON COMMAND...: plumb check of some scenes. Exit code 1 is left to the scenes' own tests; any other
+# fails this one.
 json=$1
 shift
 rm -f "$json"

@@ -1,4 +1,4 @@
-// Scenes in the order of what they take.
+// Estimated work of a scene.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace plumbline::test {
 
-/// About what it takes to draw a scene and to judge it [pixels]: the frame for each draw, and 50 for each triangle.
+/// Estimated cost of drawing and judging a scene [pixels]: of each pass, the frame per draw and 50 per triangle.
 inline std::size_t work_of(const Scene& scene) {
   std::size_t out = 0;
   for (const Scene& pass : passes_of(scene)) {

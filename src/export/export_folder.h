@@ -19,8 +19,8 @@ struct ExportedStages {
 using StagesOf = std::function<ExportedStages(const Scene& scene)>;
 
 /// Writes the scene; for an antialiased scene its passes, each in a folder of its own. `stages_of` is called once per
-/// scene of one sample per pixel. A folder that is empty, or holds an export and nothing else, is replaced atomically.
-/// Throws OutputError (base/atomic_path.h), and whatever `stages_of` throws.
+/// scene or pass. A folder that is empty, or holds an export and nothing else, is replaced atomically. Throws
+/// OutputError (base/atomic_path.h), and whatever `stages_of` throws.
 void write_export(const Scene& scene, const StagesOf& stages_of, const std::filesystem::path& folder);
 
 /// Checks the folder as write_export() does, without writing. Throws OutputError where write_export() would refuse it.

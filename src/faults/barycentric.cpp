@@ -1,5 +1,5 @@
-// Barycentric coordinates in another order, for all that is interpolated. They come last: where depths are constant,
-// a fault of the attributes alone draws the same frame, and is named first.
+// Barycentric coordinates in another order, for depths and attributes. The last list: where depths are
+// constant, a fault of the attributes alone draws the same frame, and is named first.
 #include <array>
 #include <cstddef>
 #include <span>
@@ -16,8 +16,8 @@ namespace {
 using pipeline::ShadedTriangle;
 using pipeline::WindowVertex;
 
-// Corner i of each triangle has what corners[i] should: depth, w and attributes. A triangle that is not cut has its
-// second corner first, its first last.
+// Corner i of each triangle has the depth, w and attributes of corners[i]. An uncut triangle has its second corner
+// first, its first last.
 template <std::size_t... corners>
 void values_of(const pipeline::DrawInput& input, const pipeline::Polygon& polygon, std::vector<ShadedTriangle>& out) {
   const std::size_t first = out.size();

@@ -1,5 +1,5 @@
-// Renderers that end the process, never end, take all memory or throw: for tests that other rows survive. They are in
-// no list of faults.
+// Renderers that end the process, never end, take all memory or throw, for tests that other rows survive. No fault list
+// has them.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ struct ReferenceEnding {
 /// Parses `endings.HOW:REFERENCE:SCENE`, HOW one of throw, memory, crash, exit and hang; none: `fault` has another
 /// form.
 std::optional<ReferenceEnding> reference_ending(std::string_view fault);
-/// `inner`, but capture() of the scene of that name ends as `ending.how` says.
+/// `inner`, except that capture() of `ending.scene` ends by `ending.how`.
 std::unique_ptr<Renderer> make_ending(std::unique_ptr<Renderer> inner, ReferenceEnding ending);
 
 }  // namespace plumbline::faults

@@ -1,5 +1,5 @@
-// A fault: a bug that people really make, in one stage. It replaces that stage's functions in the pipeline; all other
-// stages stay right. Faults prove that the harness sees and names what breaks a renderer.
+// A fault: a real bug in one stage, as functions that replace the stage's own in the pipeline; all other stages stay
+// right. Faults prove that the harness sees and names what breaks a renderer.
 #pragma once
 
 #include <string_view>
@@ -13,7 +13,7 @@ struct Fault {
   std::string_view name;             ///< stage.bug, or notes.note.mistake (notes.h)
   std::string_view changes;          ///< what it does, in words
   Stage stage;                       ///< the stage that must be named
-  void (*apply)(pipeline::Stages&);  ///< puts the fault's functions in, over those that are there
+  void (*apply)(pipeline::Stages&);  ///< replaces stage functions by the fault's
   /// The thread of a public renderer that reports it (owner/repository#number): the fault was written from that report
   /// alone, without knowledge of the diagnosis.
   std::string_view report = {};

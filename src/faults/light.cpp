@@ -32,7 +32,7 @@ constexpr auto kNoAttenuation = [](Scene& scene, Draw&) {
   for (Light& light : scene.lights) light.attenuation = {1, 0, 0};
 };
 
-// cos(x) of the number of degrees itself. Where it is negative, the cone is more than a half space.
+// cos() of the degrees themselves; a negative cosine makes the cone more than a half space.
 constexpr auto kSpotDegreesForRadians = [](Scene& scene, Draw&) {
   for (Light& light : scene.lights) {
     if (light.spot) light.spot->cutoff_degrees = glm::degrees(std::acos(std::cos(light.spot->cutoff_degrees)));
@@ -84,8 +84,8 @@ void back_color_is_the_fronts(const Scene& scene, const Draw& draw, const Mesh& 
   for (std::size_t i = first; i < out.size(); ++i) out[i][Varying::back_color] = out[i].color();
 }
 
-// |z_eye| at the vertices, before clipping: on a primitive that reaches behind the eye, what is interpolated grows
-// towards the vertices there.
+// |z_eye| at the vertices, before clipping: on a primitive that reaches behind the eye, the interpolated distance grows
+// towards the vertices.
 void positions_by_distance(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
                            LitVertices& out) {
   const std::size_t first = out.size();
@@ -96,7 +96,7 @@ void positions_by_distance(const Scene& scene, const Draw& draw, const Mesh& mes
   }
 }
 
-// Light per fragment of the scene that `change` altered. (What fragment_light() reads of a mesh is put back.)
+// Light per fragment of the scene that `change` altered. (by_color, read from the mesh, is put back.)
 template <auto change>
 pipeline::Shaded shaded_in_other_light(const pipeline::Surface& surface, bool front,
                                        const pipeline::SurfaceAttributes<float>& a) {
@@ -126,8 +126,8 @@ pipeline::Shaded no_color_sum(const pipeline::Surface& surface, bool front,
   return {pipeline::shade<float>(surface, front, primary)};
 }
 
-// Light by the interpolated normal as it is. Surfaces with fog, two-sided light, a separate specular colour or colour
-// material are left right.
+// Light by the unnormalised interpolated normal. Surfaces with fog, two-sided light, a separate specular colour or
+// colour material stay right.
 pipeline::Shaded short_normals(const pipeline::Surface& surface, bool front,
                                const pipeline::SurfaceAttributes<float>& a) {
   const LightModel& model = surface.scene->light_model;

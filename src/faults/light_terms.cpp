@@ -40,7 +40,7 @@ float highlight_behind(const LitPoint& at, const LightModel& model) {
   return pipeline::reach<float>(at.light, vector, to_light) * pipeline::power(cosine, at.shininess);
 }
 
-/// The light equation as a sum of lights, each of whose points is changed.
+/// Light equation as a sum over lights; `change` alters each LitPoint.
 template <auto change, bool clamps = true>
 Color<float> lit_light_by_light(const Illumination& illumination, const Reflectance<float>& reflectance,
                                 const Vec3<float>& p_eye, const Vec3<float>& n_eye) {
@@ -107,7 +107,7 @@ Color<float> lit_fragment(const pipeline::FragmentLight& light, LitPart part,
   return lit_light_by_light<change>(light.illumination, of, p_eye, normal / (part.back ? -size : size));
 }
 
-// The surface as if its fragments had been lit before.
+// Shade of an unlit surface in lit colours.
 template <auto change>
 pipeline::Shaded at_fragments(const pipeline::Surface& surface, bool front,
                               const pipeline::SurfaceAttributes<float>& a) {
@@ -125,7 +125,7 @@ constexpr auto kAbsoluteCosine = [](LitPoint& at, const LightModel&) {
   if (pipeline::dot(at.n_eye, towards(at)) < 0) at.n_eye = -at.n_eye;
 };
 
-// Vector to a point light at its full length; the light's reach and cone are as they are.
+// Unnormalised vector to a point light; the light's reach and cone stay right.
 constexpr auto kLongVector = [](LitPoint& at, const LightModel&) {
   if (at.light.directional) return;
   const Vec3<float> vector = towards(at);
@@ -136,7 +136,7 @@ constexpr auto kLongVector = [](LitPoint& at, const LightModel&) {
   at.light.half = pipeline::unit(at.light.vector + Vec3<float>{0, 0, 1});
 };
 
-// The point mirrored at the eye, with its light moved along: the same direction to the light, the opposite to the eye.
+// The point mirrored at the eye, and its light moved along: same direction to the light, opposite one to the eye.
 constexpr auto kFromTheEye = [](LitPoint& at, const LightModel& model) {
   if (!model.local_viewer) {
     if (at.light.directional) at.light.half = pipeline::unit(at.light.vector - Vec3<float>{0, 0, 1});
@@ -169,7 +169,7 @@ constexpr auto kShineByCosine = [](LitPoint& at, const LightModel&) {
   at.shine = std::max(pipeline::dot(at.n_eye, pipeline::unit(towards(at))), 0.0f);
 };
 
-// Diffuse share of a light that shines from behind, too.
+// Diffuse share (N.L + 1) / 2, also for N.L < 0.
 constexpr auto kHalfLambert = [](LitPoint& at, const LightModel&) {
   at.wrapped = 0.5f * pipeline::dot(at.n_eye, pipeline::unit(towards(at))) + 0.5f;
 };

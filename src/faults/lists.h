@@ -14,6 +14,6 @@ std::span<const Fault> of_polygons();     ///< stages 3 and 4
 std::span<const Fault> of_raster();       ///< stages 5 to 7
 std::span<const Fault> of_textures();     ///< stages 8 and 9
 std::span<const Fault> of_merge();        ///< stages 10 to 12
-std::span<const Fault> of_barycentric();  ///< stage 4, of what is interpolated between corners
+std::span<const Fault> of_barycentric();  ///< stage 4: corners' values in another order
 
 }  // namespace plumbline::faults

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kRadians = 3.14159265358979323846 / 180.0;
 
-// Stage 0 as another camera has it. Lights are brought to eye space by the scene's own: they are another stage's.
+// Stage 0 of another camera. Lights (Stages::lights) still go by the scene's own camera.
 Matrices<float> seen_by(const Camera& camera, const Scene& scene, const Draw& draw) {
   Scene moved;  // all that stage 0 reads
   moved.name = scene.name;
@@ -28,7 +28,7 @@ Matrices<float> seen_by(const Camera& camera, const Scene& scene, const Draw& dr
   return pipeline::matrices(moved, draw);
 }
 
-// v = w x v, where v was t before: -|t x w| u. The inverse transpose does not exist; normals stay.
+// v = w x v with v = t before: -|t x w| u. The matrix is singular; normals stay right.
 Matrices<float> v_is_w_cross_v(const Scene& scene, const Draw& draw) {
   Matrices<float> m = pipeline::matrices(scene, draw);
   if (scene.dialect != Dialect::gzrender) return m;
@@ -54,8 +54,8 @@ Matrices<float> eye_at_c(const Scene& scene, const Draw& draw) {
   return seen_by({c + forward, l + forward, up}, scene, draw);
 }
 
-// NDC -1 is the first column's sample and NDC 1 the first row's from above, not those pixels' outer sides: what is
-// drawn moves half a pixel to the right and down, 1/width and 1/height in NDC.
+// NDC x = -1 is the first column's sample and y = 1 the top row's, not these pixels' outer sides: the picture moves
+// half a pixel to the right and down, 1/width and 1/height in NDC.
 Matrices<float> whole_centres(const Scene& scene, const Draw& draw) {
   Matrices<float> m = pipeline::matrices(scene, draw);
   if (scene.dialect != Dialect::gl && scene.dialect != Dialect::games101) return m;
@@ -67,8 +67,8 @@ Matrices<float> whole_centres(const Scene& scene, const Draw& draw) {
   return m;
 }
 
-// N.L below 0 takes light away: what an opposite light of negative colour does. (Of GzRender's lights, which are
-// directional. A scene has 8 lights at most.)
+// N.L below 0 takes light away, as does an opposite light of negative colour. (Directional lights alone, as GzRender's
+// are; 8 lights at most.)
 void no_clamp_of_n_l(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
                      std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   Scene wrong = scene;
@@ -83,8 +83,8 @@ void no_clamp_of_n_l(const Scene& scene, const Draw& draw, const Mesh& mesh, pip
   pipeline::light(wrong, draw, mesh, opposite, vertices, out);
 }
 
-// GzRender turns N over where N.L and N.E are both below 0, and leaves the light out where one is. The mistake: N is
-// turned wherever N.E < 0.
+// GzRender turns N where N.L and N.E are both below 0, and skips the light where only one is. The mistake turns N
+// wherever N.E < 0.
 void flipped_normals(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
                      std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   std::vector<Vertex<float>> facing(vertices.begin(), vertices.end());
@@ -94,8 +94,8 @@ void flipped_normals(const Scene& scene, const Draw& draw, const Mesh& mesh, pip
   pipeline::light(scene, draw, mesh, lights, facing, out);
 }
 
-// One corner with Z < 0, which is before the near plane, and the triangle is gone. Where depths are clamped there is no
-// such plane.
+// A triangle with a corner before the near plane (Z < 0) is deleted. Where depths are clamped there is no near
+// plane.
 void delete_behind_view_plane(const pipeline::DrawInput& input, pipeline::Polygon& polygon) {
   const auto is_before = [](const pipeline::ClipVertex& v) { return v.p_clip.z < -v.p_clip.w; };
   if (!input.depth_clamp && std::any_of(polygon.corners.begin(), polygon.corners.end(), is_before)) {
@@ -111,7 +111,7 @@ constexpr bool is_small_side(std::int64_t step_x, std::int64_t step_y) {
 bool no_edge_in(std::int64_t, std::int64_t) { return false; }
 bool left_edges_in(std::int64_t step_x, std::int64_t) { return step_x > 0; }
 bool left_and_right_edges_in(std::int64_t step_x, std::int64_t) { return step_x != 0; }
-// "Consistent sign" holds whichever sign is left: only the edges whose pixels are in change sides.
+// "Consistent sign" holds for either sign: only the ownership of edges changes sides.
 bool left_taken_for_right(std::int64_t step_x, std::int64_t step_y) { return !is_small_side(step_x, step_y); }
 
 // x_i is the first corner's x, in pixels whose centres are whole numbers.
@@ -124,7 +124,7 @@ PixelList box_of_one_vertex(const Triangle& triangle, const PixelBounds& box) {
   return pipeline::covered_pixels(pipeline::edges_of(triangle), of_vertex, box);
 }
 
-// y = y + k in float for each x, from where the line is exited first, and ROUND(y).
+// y = y + k in float for each x, from the first exited pixel on; ROUND(y).
 PixelList incremental_line(const Triangle& t, const PixelBounds& box) {
   if (t.corners != 2) return pipeline::covered_pixels(t, box);
   const glm::ivec2 from = t.v[0].snapped, d = t.v[1].snapped - from;

@@ -2,8 +2,8 @@
 // (no fault), 002 TinyRenderer, 004 the class notes of CSCI 580. A mistake that is right by the conventions of its own
 // dialect changes nothing there.
 //
-// Without a fault: the midpoint's b/2 (004, section 2.2), which no integer holds, and loops to x = xs (000), which
-// leave the frame: no picture can show them.
+// Mistakes that no picture shows, and that have no fault: the midpoint's b/2 (004, section 2.2), no integer; loops to
+// x = xs (000), which leave the frame.
 #pragma once
 
 #include <span>

@@ -66,7 +66,7 @@ void clip_changed(const DrawInput& input, Polygon& polygon) {
   change(polygon);
 }
 
-// Each corner made by a cut has the attributes of the polygon's corner before it.
+// Corners made by a cut have the attributes of the corner before.
 constexpr auto kAttributesNotCut = [](Polygon& polygon) {
   const Attributes* before = nullptr;
   for (const ClipVertex& c : polygon.corners) {
@@ -149,7 +149,7 @@ constexpr auto kCulledByModel = [](Matrices<float>& m, Draw& d) {
 };
 constexpr auto kRowsFromAbove = [](Matrices<float>& m, Draw&) { m.win_scale.y = -m.win_scale.y; };
 
-// The stage, its corners snapped otherwise. Triangles of no area are gone.
+// Stage window by another snapping. Triangles without area are gone.
 template <auto snap>
 void snapped_otherwise(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   Triangles made;
@@ -171,7 +171,7 @@ constexpr auto kWholeRows = [](const pipeline::WindowVertex& v) {
 };
 constexpr auto kHalfAPixelOff = [](const pipeline::WindowVertex& v) { return v.snapped + kSubpixel / 2; };
 
-// Corners in whole pixels, plus a half where `centre` says so, for all that is interpolated as well.
+// Corners in whole pixels (`centre`: plus a half), for coverage and for interpolation.
 template <bool centre>
 void in_whole_pixels(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   Triangles made;
@@ -212,7 +212,7 @@ void diagonals_drawn(const DrawInput& input, const Polygon& polygon, Triangles& 
   }
 }
 
-// Each edge of an outline but the first begins at the corner that it ends in.
+// Edges of an outline, but the first, begin at their end.
 void edges_of_one_corner(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   const std::size_t first = out.size();
   pipeline::to_window(input, polygon, out);

@@ -18,13 +18,13 @@ bool top_edges_for_bottom(std::int64_t step_x, std::int64_t step_y) {
   return step_x > 0 || (step_x == 0 && step_y < 0);
 }
 
-// Coverage of triangles by pixels(); lines and points are left right.
+// Coverage of triangles by pixels(); lines and points stay right.
 template <auto pixels>
 PixelList triangles_by(const Triangle& t, const PixelBounds& box) {
   return t.corners == 3 ? pixels(t, box) : pipeline::covered_pixels(t, box);
 }
 
-// Edge functions in 32 bits [(1/256 pixel)^2]: they overflow from triangles of some 180 x 180 pixels on.
+// Edge functions in 32 bits [(1/256 pixel)^2], which overflow from triangles of 180 x 180 pixels on.
 PixelList in_32_bits(const Triangle& t, const PixelBounds& box) {
   const pipeline::Edges edges = pipeline::edges_of(t);
   PixelList out;
@@ -65,7 +65,7 @@ PixelBounds scissor_with_its_far_sides(const Scissor& box, const PixelBounds& fr
   return pipeline::scissored({box.x, box.y, box.width + 1, box.height + 1}, frame);
 }
 
-// Coverage of lines and points by pixels(); triangles are left right.
+// Coverage of lines and points by pixels(); triangles stay right.
 template <auto pixels>
 PixelList lines_by(const Triangle& t, const PixelBounds& box) {
   return t.corners == 3 ? pipeline::covered_pixels(t, box) : pixels(t, box);
@@ -169,7 +169,7 @@ float truncated_depth(const Setup& setup, const Pixels<float>& p) {
   return scale == 0.0 ? static_cast<float>(z) : static_cast<float>(static_cast<std::int64_t>(z * scale));
 }
 
-// 2^n for 2^n - 1, and the last code for what that makes too large.
+// Scale 2^n for 2^n - 1; larger codes become the last.
 float scaled_by_power_of_two(const Setup& setup, const Pixels<float>& p) {
   const double scale = setup.depth.scale;
   if (scale == 0.0) return right_depth(setup, p);
@@ -193,7 +193,7 @@ using TriangleAttributes = pipeline::AttributeSetup;
 
 pipeline::SampleOffsets color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
 
-// Corners a and b count as each other should. A triangle that is not cut has its second corner first, its first last.
+// Corners a and b have each other's weights. An uncut triangle has its second corner first, its first last.
 template <std::size_t a, std::size_t b>
 Color<float> corners_swapped(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
   const Barycentric at = pipeline::barycentric(s.planes, p);
@@ -204,7 +204,7 @@ Color<float> corners_swapped(const Setup& s, const TriangleAttributes& of, const
   return pipeline::mean<float>(of, pipeline::weights<float>(q[1], q[2], q[0] + q[1] + q[2]));
 }
 
-// Corner i counts as corner i + turn should.
+// Corner i has corner i + turn's weight.
 template <std::size_t turn>
 Color<float> corners_turned(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
   const Barycentric b = pipeline::barycentric(s.planes, p);

@@ -104,7 +104,7 @@ FilteredTexel<float> one_level(const TextureSetup& t, const TexCoords<float>& at
   return out;
 }
 
-// Place between four texels' centres, its coordinates exchanged, for a linear filter of the base level.
+// A linear filter's weights along s and t exchanged, at the base level.
 FilteredTexel<float> weights_exchanged(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   const FilteredTexel<float> right = pipeline::texture<float>(t, at, g);
   const bool magnified = right.lod <= t.c;
@@ -152,7 +152,7 @@ pipeline::Shaded fogged_alpha(const pipeline::Surface& surface, bool front, cons
   return {color};
 }
 
-// The fog's colour `of_fog` times, the fragment's own `of_fragment` times.
+// of_fragment * the fragment's colour + of_fog * the fog's.
 pipeline::Shaded with_fog(const pipeline::Surface& surface, const Color<float>& color, float of_fragment,
                           float of_fog) {
   const glm::vec3& fog = surface.draw->fog->color;

@@ -30,8 +30,8 @@ void put(Stages& stages) {
   }
 }
 
-/// Coverage by another tie rule: owns(step_x, step_y) says whether pixels on an edge are in. The steps are the edge
-/// function's, so that (step_x, step_y) points into the triangle.
+/// Coverage by another tie rule: owns(step_x, step_y): pixels on an edge are in. (step_x, step_y), the edge function's
+/// steps, points into the triangle.
 template <bool (*owns)(std::int64_t, std::int64_t)>
 PixelList tied(const Triangle& triangle, const PixelBounds& box) {
   if (triangle.corners != 3) return pipeline::covered_pixels(triangle, box);

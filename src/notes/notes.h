@@ -1,5 +1,5 @@
-// The map of the four course notes (notes.json): what each section teaches, the functions that implement it, and the
-// tests and scenes that show it. Titles of notes and sections are the notes' own; `teaches` is in other words.
+// Map of the four course notes (notes.json): the teachings of each section, the functions that implement them, and the
+// tests and scenes that show them. Titles are the notes' own; `teaches` is in plumbline's words.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct Teaching {
   std::string teaches;
   std::vector<Place> where;             ///< functions that implement it
   std::vector<Place> shown_by;          ///< scenes and tests
-  std::string mistake;                  ///< what the note has wrong or leaves open; empty: nothing
+  std::string mistake;                  ///< error or gap of the note; empty: none
   std::vector<Place> mistake_shown_by;  ///< tests and faults; at least one if `mistake` is not empty
 };
 

@@ -8,7 +8,7 @@ struct Axes {
   glm::dvec3 x, y, z, origin;
 };
 
-// Class notes (004) 3.3, item 8: the axes of a space give its transform, and the inverse.
+// Transform of a space, and its inverse, from its axes. Class notes (004) 3.3, item 8.
 glm::dmat4 to_world(const Axes& a) {
   return {glm::dvec4(a.x, 0.0), glm::dvec4(a.y, 0.0), glm::dvec4(a.z, 0.0), glm::dvec4(a.origin, 1.0)};
 }

@@ -1,7 +1,7 @@
 // View matrices (world to camera space) by four constructions, and their inverses. Each is a rotation and a translation
 // and does not mirror: a left-handed camera space belongs to a left-handed world. For one eye and centre, GL's x and z
-// axes are the negatives of the left-handed cameras'. Entries are NaN where the view direction is exactly along `up` or
-// has length 0.
+// axes are opposite to the left-handed cameras'. Entries are NaN where the view direction is along `up` or has length
+// 0.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,5 +1,5 @@
-// Projections: matrices from camera to clip space, of which division by w makes the canonical volume (NDC), and their
-// inverses. Angles in radians. An empty volume or a distance of 0 gives infinite or NaN entries.
+// Projections: matrices from camera space to clip space, where division by w gives NDC, and their inverses. Angles in
+// radians. An empty volume or a distance of 0 gives infinite or NaN entries.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -58,7 +58,7 @@ namespace games101 {
 glm::dmat4 orthographic(double l, double r, double b, double t, double n, double f);
 glm::dmat4 inverse_orthographic(double l, double r, double b, double t, double n, double f);
 
-/// Frustum to cuboid: points on the near plane stay, z = n and z = f stay. w = z, negative for visible points.
+/// Frustum to cuboid: keeps points on the near plane, z = n and z = f. w = z, negative for visible points.
 glm::dmat4 persp_to_ortho(double n, double f);
 glm::dmat4 inverse_persp_to_ortho(double n, double f);
 

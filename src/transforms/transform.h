@@ -1,6 +1,6 @@
 // Translation, scaling, rotations and orbits, as matrices in double that act on column vectors: p' = M p. Angles are in
-// radians, counter-clockwise as seen from the axis' tip in right-handed coordinates (clockwise in left-handed ones: the
-// numbers are the same). Each inverse is a formula of its own, not an elimination.
+// radians, counter-clockwise as seen from the axis' tip in right-handed coordinates (clockwise in left-handed ones, by
+// the same numbers). Each inverse has its own formula; none is an elimination.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -38,8 +38,8 @@ glm::dmat4 orbit_model(const glm::dvec3& p, double angle, const glm::dvec3& axis
 glm::dmat4 inverse_orbit_model(const glm::dvec3& p, double angle, const glm::dvec3& axis);
 
 /// Turns a camera about the point `p`; point and axis are in world space, and the camera keeps its view of the point.
-/// `x_iw` is world to camera; so is what is returned: x_iw O^-1, where O is the orbit of a model. The inverse takes and
-/// gives `x_wi`, camera to world: O x_wi. Class notes (004) 3.3, item 9.
+/// `x_iw` and the result, x_iw O^-1, are world to camera; O is the orbit of a model. The inverse maps `x_wi`, camera to
+/// world, to O x_wi. Class notes (004) 3.3, item 9.
 glm::dmat4 orbit_camera(const glm::dmat4& x_iw, const glm::dvec3& p, double angle, const glm::dvec3& axis);
 glm::dmat4 inverse_orbit_camera(const glm::dmat4& x_wi, const glm::dvec3& p, double angle, const glm::dvec3& axis);
 

@@ -39,7 +39,7 @@ std::size_t differing(const Planes& ours, const Planes& theirs) {
   return out;
 }
 
-// Of each benchmark the middle of its repetitions, in milliseconds.
+// Median of each benchmark's repetitions [ms].
 class Times : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {
@@ -64,7 +64,7 @@ double milliseconds(const std::function<void()>& frame) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// A sphere's frames in turns; the middle of eleven.
+// A sphere's frames in turns; the median of eleven.
 void print_growth(const std::string& what, int triangles, int size, int threads) {
   const Scene scene = sphere_scene(triangles, size);
   const auto in_use = [] { return static_cast<double>(::mallinfo2().uordblks + ::mallinfo2().hblkhd); };
@@ -99,7 +99,7 @@ void print_growth(int threads) {
   }
 }
 
-// The least share of a processor that any of so many threads gets while all compute, for a tenth of a second.
+// Least share of a processor [0, 1] that one of `threads` threads gets while all compute for 0.1 s.
 double share_of_processors(int threads) {
   std::vector<double> shares(static_cast<std::size_t>(threads));
   const auto compute = [](double& share) {

@@ -25,7 +25,7 @@ class States {
     schema_ = Json::parse(in);
   }
 
-  /// All that there are.
+  /// All states.
   std::set<std::string> all() const {
     std::set<std::string> out;
     add_all("scene", schema_, out);
@@ -35,7 +35,7 @@ class States {
     return out;
   }
 
-  /// Those that a scene is of.
+  /// States of a scene.
   std::set<std::string> of(const Json& scene) const {
     std::set<std::string> out;
     add("scene", schema_, scene, out);
@@ -103,7 +103,7 @@ TEST(HardScenes, ReachEveryStateOfTheSceneFormat) {
   const States states;
   std::set<std::string> missing = states.all();
   EXPECT_GT(missing.size(), 250u);
-  // What is of files, not of scenes; keys of all draws are the draws'.
+  // Keys of files, not of scenes; keys of defaults are the draws'.
   std::erase_if(missing, [](const std::string& state) {
     for (const char* beside : {"scene.$schema", "scene.include", "mesh.file", "image.file", "defaults."}) {
       if (state.starts_with(beside)) return true;

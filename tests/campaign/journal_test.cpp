@@ -53,8 +53,8 @@ class Journals : public TestFolder {
   std::filesystem::path file_ = root_ / "a.journal";
 };
 
-// Another process that has the journal for so long. It is begun before this one opens the file: a copy of a process
-// that has it would take over what SQLite remembers of locks.
+// Forks a process that holds the journal for `duration`, before this process opens the file: a fork of a process that
+// holds it would inherit what SQLite remembers of locks.
 pid_t begin_holding(const std::filesystem::path& file, std::chrono::milliseconds duration) {
   int ends[2];
   if (::pipe(ends) != 0) throw std::runtime_error("no pipe");

@@ -1,4 +1,4 @@
-// What campaigns found and was mended, made small: nothing differs any more.
+// Findings of campaigns, shrunk and since fixed: nothing differs any more.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +28,7 @@ TEST(Found, NothingDiffersAnyMore) {
   }
 }
 
-// What one reference alone gets wrong, and nobody else was asked about.
+// A mistake of the one reference that is asked: arbiters settle it.
 TEST(Found, ArbitersSettleWhatOneReferenceAloneCannot) {
   const auto ours = pipeline::make_pipeline();
   const auto opengl = make_opengl(), exact = exact::make_exact();

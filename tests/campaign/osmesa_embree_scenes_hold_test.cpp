@@ -76,7 +76,7 @@ std::vector<std::string> rows(const std::vector<fs::path>& scenes, const fs::pat
   return out;
 }
 
-// What one scene leaves behind in a process (Mesa's state, memory, caches) must not reach the next.
+// State that a scene leaves in a process (Mesa's, memory, caches) must not reach the next.
 TEST_F(ScenesHold, WithTheSameRowsInAnyOrderJobsAndShards) {
   std::vector<fs::path> scenes;
   for (std::uint64_t seed = 3; seed <= 1000; seed += 4 * one_of(20)) {

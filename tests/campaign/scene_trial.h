@@ -17,7 +17,7 @@
 
 namespace plumbline::test {
 
-/// Where findings are left; scripts/test empties it as it starts.
+/// Folder of findings; scripts/test empties it as it starts.
 inline std::filesystem::path findings_folder() {
   return std::filesystem::path(PLUMBLINE_SUITE).parent_path() / "failures";
 }

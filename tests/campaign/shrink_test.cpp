@@ -18,7 +18,7 @@ constexpr int kPlenty = 2000;
 
 class Shrinking : public TestFolder {
  protected:
-  // Those of the scenes that are read, and whose draws one has what is asked.
+  // True for scenes that can be read and of which a draw `has` it.
   Shows shows(const std::function<bool(const Scene&, const Draw&)>& has) {
     return [this, has](const std::string& text) {
       ++asked_;

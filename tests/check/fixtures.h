@@ -45,7 +45,7 @@ inline testing::AssertionResult passes(const Measurement& m) {
                                      << ", tolerance " << m.worst.tolerance << (m.mismatch.empty() ? "" : ": ")
                                      << m.mismatch;
 }
-/// Whether exactly `items` differ, and ratio (> 1) and differences (> 0) agree with that.
+/// True: exactly `items` differ, and ratio (> 1) and differences (> 0) agree.
 inline testing::AssertionResult fails(const Measurement& m, std::uint64_t items = 1) {
   if (m.differing != items) {
     return testing::AssertionFailure() << m.differing << " of " << m.items << " differ, " << items

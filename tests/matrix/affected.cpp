@@ -137,7 +137,7 @@ std::uint64_t bits_of(const pipeline::Frame& frame) {
 
 std::vector<glm::ivec2> no_pixels(const pipeline::WindowTriangle&, const pipeline::PixelBounds&) { return {}; }
 
-// What the stages make of the scene: all records, and the frame's bits among the planes.
+// Hash of all records, and of the frame's bits among the planes, that the stages make.
 std::uint64_t capture_bits(const Scene& scene, const Stages& stages) {
   Request request{.records = StageSet::all()};
   request.memory_budget = std::size_t{1} << 40;
@@ -146,7 +146,7 @@ std::uint64_t capture_bits(const Scene& scene, const Stages& stages) {
   const std::uint64_t frame = bits_of(pipeline::render(scene, stages, records));
   return bits_of(capture) ^ (frame * 0x9e3779b97f4a7c15u);
 }
-// Of stages 0 to 4 alone.
+// Hash of stages 0 to 4.
 std::uint64_t geometry_bits(const Scene& scene, Stages stages) {
   stages.coverage = no_pixels;
   return capture_bits(scene, stages);

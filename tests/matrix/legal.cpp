@@ -34,7 +34,7 @@ bool of_triangles_alone(const Scene& scene) {
                      [](const Mesh& m) { return m.topology == Topology::triangles; });
 }
 
-// Not under two-sided light, which takes the side from the winding.
+// Two-sided light takes the side from the winding: none there.
 MaybeScene other_winding(const Scene& of) {
   if (of.light_model.sides == LightModel::Sides::two || !of_triangles_alone(of)) return {};
   Scene scene = of;
@@ -159,7 +159,7 @@ MaybeScene draw_out_of_sight(const Scene& of) {
   return scene;
 }
 
-// All lengths. A view plane's eye and a pinhole's w have none to double.
+// Doubles all lengths. A view plane's eye and a pinhole's w have none.
 MaybeScene world_doubled(const Scene& of) {
   Scene scene = of;
   if (auto* p = std::get_if<Perspective>(&scene.projection)) {

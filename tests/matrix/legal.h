@@ -10,11 +10,11 @@
 
 namespace plumbline::faults {
 
-/// One of `scene` and `apply` is set.
+/// Variant by `scene` or `apply`.
 struct Variant {
   std::string_view name;
-  std::string_view says;                                  ///< what is otherwise, and why that is allowed
-  std::optional<Scene> (*scene)(const Scene&) = nullptr;  ///< the scene stated otherwise; none: it cannot be
+  std::string_view says;                                  ///< the difference, and why it is allowed
+  std::optional<Scene> (*scene)(const Scene&) = nullptr;  ///< the scene restated; none: not possible
   void (*apply)(pipeline::Stages&) = nullptr;             ///< puts its functions into the pipeline
   bool same_bits = false;                                 ///< every bit of the picture must stay
 };

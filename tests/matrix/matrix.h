@@ -23,7 +23,7 @@ struct Subject {
 /// One subject on one scene.
 struct Answer {
   std::size_t scene = 0;
-  std::string by;              ///< reference and stage of the first row that differs; empty: nothing was seen
+  std::string by;              ///< reference and stage of the first row that differs; empty: none does
   std::optional<Stage> first;  ///< as check::Diagnosis has them
   std::vector<Stage> wrong;
   std::string failed;  ///< stage and note of the last row that failed; empty: none did
@@ -31,8 +31,8 @@ struct Answer {
   bool seen() const { return !by.empty() || !wrong.empty() || !failed.empty(); }
 };
 
-/// Of one fault: its stage is the first that differs, and the only one that is wrong by itself. Of more: each is wrong
-/// by itself. Of none: nothing is seen.
+/// One fault: its stage is the first that differs, and alone wrong by itself. Several: each is wrong by itself. None:
+/// nothing is seen.
 bool is_right(const Answer& answer, const Subject& subject);
 
 /// Numbers of scenes, ascending.

@@ -33,7 +33,7 @@ struct Shares {
 inline constexpr Shares kRequired = {1, 0.97, 0.85, 1};
 /// The shares of a matrix; a share of nothing is 1.
 Shares shares(const Matrix& matrix);
-/// Whether no share is below kRequired's.
+/// True: no share is below kRequired's.
 bool holds(const Shares& shares);
 
 std::string text_of(const Matrix& matrix);

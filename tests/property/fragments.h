@@ -64,8 +64,8 @@ inline std::vector<Fragment> fragments(const pipeline::ShadedTriangle& triangle,
   return out;
 }
 
-/// Nothing, or what is wrong: fragments of the same pixels, depths up to `z_apart`, colours no further apart than float
-/// rounding in another order may bring them.
+/// First mismatch, or nothing. Fragments must be of the same pixels, depths within `z_apart`, colours within what float
+/// rounding in another order explains.
 inline std::string apart(const std::vector<Fragment>& a, const std::vector<Fragment>& b, double z_apart) {
   if (a.size() != b.size()) return fmt::format("{} fragments and {}", a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -1,4 +1,4 @@
-// From the scene on: closed meshes are closed in the window too, and the order of a triangle's vertices does not count.
+// Scenes end to end: closed meshes are closed in the window too, and the order of a triangle's vertices is irrelevant.
 #include <algorithm>
 #include <map>
 #include <span>
@@ -37,7 +37,7 @@ Mesh closed_mesh() {
   }
 }
 
-// Any closed mesh, anyhow turned, mirrored and squeezed: over the frame's borders, but not through near or far.
+// A closed mesh, turned, mirrored and squeezed at random: over the frame's borders, not through near or far.
 Scene closed_scene() {
   using namespace rc;
   Scene scene;

@@ -59,7 +59,7 @@ inline std::string transform(const Transform& t) {
 }
 
 /// The mesh within the format's limits: coordinates are clamped to 1e6, triangles that repeat a vertex are left out.
-/// Where none is left, one triangle of no area stands in.
+/// A triangle of no area stands in where none is left.
 inline std::string mesh(const Mesh& m) {
   std::vector<glm::uvec3> triangles;
   for (const glm::uvec3& t : m.triangles) {

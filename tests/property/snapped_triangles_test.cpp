@@ -1,4 +1,4 @@
-// On vertices that lie on the grid of 1/256 pixel, so that nothing is lost by snapping: what may not change a bit.
+// Invariances on vertices that lie on the grid of 1/256 pixel, so that snapping loses nothing.
 #include <array>
 #include <cmath>
 #include <map>
@@ -28,7 +28,7 @@ struct Corner {
 };
 using Corners = std::array<Corner, 3>;
 
-// In 1/256 pixel from the centre of pixel 0: around a frame of 64 pixels, on centres and in line more often than not.
+// Point [1/256 pixel from pixel 0's centre] around a frame of 64 pixels; half of the coordinates are centres'.
 glm::ivec2 snapped_point() {
   using namespace rc;
   const auto coordinate = gen::weightedOneOf<int>(
@@ -103,7 +103,7 @@ RC_GTEST_PROP(SnappedTriangles, RotatedVertexOrderIsTheSame, ()) {
   require_alike(drawn(c), drawn({c[2], c[0], c[1]}));
 }
 
-// Whatever the point: counter-clockwise parts count +1, clockwise ones -1, and the sum is the triangle's own.
+// Parts about any point: counter-clockwise ones count +1, clockwise ones -1; the sum is the triangle's own.
 RC_GTEST_PROP(SnappedTriangles, PartsAroundAPointCoverWhatTheWholeCovers, ()) {
   const Corners c = corners();
   const Corner hub = corner();

@@ -1,4 +1,4 @@
-// What the notes' transforms promise, whatever the numbers. Bounds follow from how far an entry is off: in a million
+// Properties of the notes' transforms on random numbers. Bounds follow from how far an entry is off: in a million
 // inputs to the table of the same formulas (transforms_table_test.cpp) it was never more than 4.8 ULP of the largest
 // term, and an ULP of x is at most 2^-52 |x|.
 #include <cmath>
@@ -219,7 +219,7 @@ RC_GTEST_PROP(Transforms, AnOrbitingCameraKeepsItsViewOfThePoint, ()) {
   const double reach = 1 + glm::length(p) + glm::length(v.eye);
   const double bound = 12 * (kEntry + 2 * kUlp) * reach;
   RC_ASSERT(glm::distance(glm::dvec3(after * glm::dvec4(p, 1)), glm::dvec3(before * glm::dvec4(p, 1))) <= bound);
-  // It is as if the world had turned the other way.
+  // Equal to the world turned the other way.
   const glm::dvec3 q = point(10);
   const glm::dvec4 turned_back = tf::inverse_orbit_model(p, a, axis) * glm::dvec4(q, 1);
   RC_ASSERT(glm::distance(after * glm::dvec4(q, 1), before * turned_back) <= bound + 12 * kUlp * 20 * reach);

@@ -23,7 +23,7 @@ Octant octant_of(glm::ivec2 from, glm::ivec2 to) {
   for (const glm::ivec2 p : {from, to})
     if (p.x < -kFarthest || p.x > kFarthest || p.y < -kFarthest || p.y > kFarthest)
       throw std::invalid_argument(
-          fmt::format("a line's end is at pixel {}, {}, expected at most {} from 0", p.x, p.y, kFarthest));
+          fmt::format("expected a line's ends within +-{}, found pixel {}, {}", kFarthest, p.x, p.y));
   const glm::i64vec2 d = glm::i64vec2(to) - glm::i64vec2(from);
   const glm::i64vec2 x(d.x < 0 ? -1 : 1, 0), y(0, d.y < 0 ? -1 : 1);
   const std::int64_t dx = std::abs(d.x), dy = std::abs(d.y);

@@ -19,13 +19,13 @@ int side(Point a, Point b, Point c) {
   return (z > 0) - (z < 0);
 }
 
-/// Whether c, a point on the line through a and b, lies between a and b or on one of them.
+/// True: c, a point on the line through a and b, lies between a and b or on one of them.
 bool between(Point a, Point b, Point c) {
   return c.x >= std::min(a.x, b.x) && c.x <= std::max(a.x, b.x) && c.y >= std::min(a.y, b.y) &&
          c.y <= std::max(a.y, b.y);
 }
 
-/// Whether the interiors of segments ab and cd cross in one point.
+/// True: the interiors of segments ab and cd cross in one point.
 bool cross(Point a, Point b, Point c, Point d) {
   return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }

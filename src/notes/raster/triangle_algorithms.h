@@ -1,9 +1,9 @@
-// Coverage of a triangle by the four algorithms that the notes teach. The renderer's is kernels/coverage.h; these four
-// each have their own expression, in integers, and share no predicate, so that each checks the others.
+// Coverage of a triangle by the four algorithms of the notes (the renderer's: kernels/coverage.h). Each has its own
+// expression, in integers, and shares no predicate with another: each checks the others.
 //
 // Corners are snapped to 1/256 pixel, pixel (i, j)'s centre is at (256 i, 256 j), y counts up. A centre inside is
-// covered; one on an edge if the interior lies to its right (+x), or, where the edge is horizontal, above it (+y)
-// (stages.h, tie rule left_bottom). Each algorithm has its own form of that rule. Both windings cover the same
+// covered; a centre on an edge where the interior lies to the right (+x), or above (+y) a horizontal edge (stages.h,
+// tie rule left_bottom). Each algorithm has its own form of that rule. Both windings cover the same
 // pixels; a triangle without area covers none.
 //
 // All four return the covered pixels of a width x height frame, ascending in y, then x. They throw std::out_of_range

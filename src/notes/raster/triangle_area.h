@@ -7,9 +7,9 @@
 namespace plumbline::raster {
 
 /// Area of the triangle within the square of pixel (x, y) [pixels, in [0, 1]]: the pixel's value on a display without
-/// jaggies, where one sample gives 0 or 1. Cut by the square's four sides (Sutherland and Hodgman, 1974) in double.
-/// Each cut leaves a point within 4 roundings of S, the farthest corner's distance in pixels; four cuts around a square
-/// of four sides: an error of at most 64 * 2^-53 S. Corners within +-2^29.
+/// jaggies, where one sample gives 0 or 1. The square's four sides cut the triangle (Sutherland and Hodgman, 1974) in
+/// double. Each cut moves a point by at most 4 roundings of S, the farthest corner's distance [pixels]: an error of at
+/// most 64 * 2^-53 S. Corners within +-2^29.
 double area_in_pixel(const Corners& corners, int x, int y);
 
 /// Area of the whole triangle [pixels], rounded once: exact below 2^36 pixels. Corners within +-2^29.

@@ -19,8 +19,8 @@ class Coordinate {
 
   int sign(std::int64_t x, std::int64_t y) const { return sign_of(f(x, y)) * at_own_vertex_; }
 
-  /// Whether the coordinate is positive. Where it is 0, the centre is on the line, and the coordinate one step to the
-  /// right decides; where that is 0, too, the one a step above.
+  /// True: the coordinate is positive. Where the centre is on the line (0), the coordinate one step to the right
+  /// decides; if 0 as well, the one a step above.
   bool accepts(std::int64_t x, std::int64_t y) const {
     if (const int here = sign(x, y); here != 0) return here > 0;
     if (const int right = sign(x + 1, y); right != 0) return right > 0;

@@ -9,9 +9,8 @@ namespace {
 
 std::int64_t cross(glm::i64vec2 a, glm::i64vec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// Whether q is on the inner side (left) of the edge from -> to of a counter-clockwise triangle. A q on the edge is in
-/// where the edge goes down, since the interior on its left is then to the right in the window, and where it goes
-/// straight to the right, since the interior is then above.
+/// True: q is on the inner (left) side of the edge from -> to of a counter-clockwise triangle, or on an edge that goes
+/// down (the interior is to the right in the window) or straight to the right (the interior is above).
 bool is_left_of(glm::i64vec2 from, glm::i64vec2 to, glm::i64vec2 q) {
   const glm::i64vec2 walk = to - from;
   const std::int64_t z = cross(walk, q - from);
@@ -26,7 +25,7 @@ Spans cover_by_cross_products(const Corners& corners, int width, int height) {
   glm::i64vec2 p0 = corners[0], p1 = corners[1], p2 = corners[2];
   const std::int64_t turn = cross(p1 - p0, p2 - p0);
   if (turn == 0) return {};
-  if (turn < 0) std::swap(p1, p2);  // the three signs are the same either way; this makes them positive
+  if (turn < 0) std::swap(p1, p2);  // counter-clockwise: all three signs are positive inside
 
   const auto in_frame = [](std::int64_t pixel, int side) {
     return static_cast<int>(std::clamp<std::int64_t>(pixel, -1, side));

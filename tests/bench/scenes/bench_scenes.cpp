@@ -43,7 +43,7 @@ Scene full_screen(int size) {
   return scene;
 }
 
-// A hundred of them, nearer or farther one by one.
+// 100 full screens, nearer or farther one by one.
 Scene layers(int size, bool back_to_front) {
   constexpr int kLayers = 100;
   Scene scene = full_screen(size);
@@ -98,7 +98,7 @@ Scene multisampled(int size) {
   return scene;
 }
 
-// Its triangles' edges.
+// A sphere's edges.
 Scene wires(int size) {
   Scene scene = sphere_scene(20'000, size);
   scene.draws[0].front_mode = PolygonMode::line;

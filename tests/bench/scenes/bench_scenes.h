@@ -1,4 +1,4 @@
-// What the renderers are timed on.
+// Scenes of the benchmarks.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ struct BenchScene {
 };
 std::vector<BenchScene> bench_scenes();
 
-/// A lit sphere of about so many triangles, Gouraud, its back faces culled: the first of them.
+/// Lit Gouraud sphere of about `triangles` triangles, its back faces culled.
 Scene sphere_scene(int triangles, int size);
 
 }  // namespace plumbline::bench

@@ -1,5 +1,5 @@
-// What the faults are, how the fault matrix asks of them, and that nothing is said of what has none. That each is seen,
-// and its stage named: test `fault_matrix`, and scripts/fault_matrix.
+// The list of faults, and the arithmetic of the fault matrix. Test `fault_matrix` and scripts/fault_matrix show that
+// each fault is seen and its stage named.
 #include <gtest/gtest.h>
 
 #include <algorithm>

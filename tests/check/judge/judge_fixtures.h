@@ -40,7 +40,7 @@ class Changed : public Renderer {
   std::unique_ptr<Renderer> inner_;
 };
 
-// Ours as another's renderer, whose captures `alter` changes.
+// Ours as a foreign renderer; `alter` changes its captures.
 struct OursAsAnothers : Changed {
   explicit OursAsAnothers(std::function<void(Capture&)> alter) : Changed(pipeline::make_pipeline()) {
     on_info = [](RendererInfo& info) {

@@ -1,4 +1,4 @@
-// What is no bug raises nothing: scenes said in other ways, and pipelines that work in other ways, against exact.
+// Legal variants raise nothing: scenes stated otherwise, and pipelines that work otherwise, against exact.
 #include <gtest/gtest.h>
 
 #include "capture/files/capture_folder.h"
@@ -26,7 +26,7 @@ bool same_picture(const pipeline::Frame& a, const pipeline::Frame& b) {
 
 class LegalVariants : public testing::TestWithParam<faults::Variant> {};
 
-// Each on two of the scenes that there is such a way for, not all on the same ones. (The fault matrix takes more.)
+// Each variant on two scenes that it applies to, not all on the same ones. (The fault matrix takes more.)
 TEST_P(LegalVariants, raises_nothing) {
   const faults::Variant& variant = GetParam();
   pipeline::Stages stages = pipeline::production_stages();

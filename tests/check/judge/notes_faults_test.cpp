@@ -87,7 +87,7 @@ Count count_of(const Capture& capture, int begin, int end) {
   return out;
 }
 
-// As measured; the tests below derive what can be derived.
+// Measured; the tests below derive what can be derived.
 TEST(NotesPictures, PixelsOfAnotherColour) {
   struct Row {
     std::string_view fault;

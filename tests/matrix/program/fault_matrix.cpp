@@ -24,12 +24,12 @@ namespace {
 // How much is judged.
 struct Extent {
   bool models = false;                     // the big models' scenes too
-  std::size_t affected = ~std::size_t{0};  // the first so many of a fault's scenes are looked for
-  std::size_t scenes = 36;                 // at most, of each fault; spread over those that it affects
-  std::size_t pairs = 120, of_pair = 3;    // of the scenes that both affect
+  std::size_t affected = ~std::size_t{0};  // affected scenes sought per fault
+  std::size_t scenes = 36;                 // most per fault, spread over those that it affects
+  std::size_t pairs = 120, of_pair = 3;    // number, and scenes of each
   std::size_t of_legal = 30;               // scenes of each variant
-  std::size_t every = 1;                   // of so many faults, one
-  bool until_seen = false;                 // of a fault's scenes one after the other, cheapest first, until it is seen
+  std::size_t every = 1;                   // stride over faults
+  bool until_seen = false;                 // a fault's scenes one by one, cheapest first, until it is seen
 };
 constexpr Extent kUsual{};
 constexpr Extent kAll{.models = true, .scenes = ~std::size_t{0}, .pairs = 400, .of_pair = 10, .of_legal = 100};
@@ -157,7 +157,7 @@ std::vector<Row> of_legal(const std::vector<Scene>& scenes, const Extent& extent
     std::vector<Scene> said;
     SceneList where;
     for (const std::size_t s : all) {
-      if (is_model(scenes[s])) continue;  // said at greater length, they do not fit the budget of memory
+      if (is_model(scenes[s])) continue;  // restated, they exceed the memory budget
       std::optional<Scene> otherwise = variant.scene == nullptr ? scenes[s] : variant.scene(scenes[s]);
       if (!otherwise) continue;
       said.push_back(std::move(*otherwise));

@@ -10,7 +10,7 @@ typedef struct {
 typedef enum { NEVER, LESS, EQUAL, LESS_EQUAL, GREATER, NOT_EQUAL, GREATER_EQUAL, ALWAYS } Compare;
 #define COMPARES "never|less|equal|less_equal|greater|not_equal|greater_equal|always"
 
-/* Told what each stage hands on: clipped polygons, triangles in pixels, fragments with the depth that is compared. */
+/* Callbacks of the stages: clipped polygons, triangles in pixels, fragments with the depth that is compared. */
 struct Frame;
 typedef struct {
   void (*polygon)(const struct Frame* frame, const Vertex* corners, int count);
@@ -25,7 +25,7 @@ typedef struct Frame {
   double* color;            /* rgba, in codes or float */
   double* depth;            /* likewise, of window z */
   float* floats;            /* finish_frame() */
-  unsigned primitive;       /* that is being drawn */
+  unsigned primitive;       /* being drawn */
   const Listener* listener; /* or NULL */
 } Frame;
 
@@ -37,7 +37,7 @@ typedef struct {
   double offset_factor, offset_units; /* of window z */
 } State;
 
-/* Memory for its pixels, or more of it, and all of them cleared. */
+/* Allocates or grows the frame's pixels, and clears them all. */
 void clear_frame(Frame* frame, const double color[4], double depth);
 void draw_triangle(Frame* frame, const State* state, const Vertex corners[3]);
 /* Codes become numbers: frame->floats is rgba in [0,1], frame->depth window z. */

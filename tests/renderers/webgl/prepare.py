@@ -34,7 +34,7 @@ class Arrays:
         self.parts, self.count = [], 0
 
     def add(self, values):
-        """Where the first is."""
+        """Index of the first."""
         values = np.ascontiguousarray(values, "<f4").ravel()
         self.parts.append(values)
         self.count += values.size
