@@ -24,11 +24,13 @@ namespace {
 //   sizes); times p: 4.  So a clip coordinate in float is within 10 u A of the one in double (P (M p) comes to the
 //   same count), and dividing by w and multiplying by the scale adds 2 u |X/W| <= 2 u A_X / W. With 2 spare: 14.
 //   A cut vertex a + t (b - a) adds 3 u of its terms per cut, and no edge is cut by more than three planes in a row
-//   between two of its mesh vertices: 9, so 24. A convex combination of vertices, each within k u A of its place, is
-//   within k u max A of its place, and an error of t moves it along the edge: so cut edges obey the same bound.
+//   between two of its mesh vertices: 9, so 24. A convex combination of vertices, each within 15 u A of its place, is
+//   within 15 u of the same combination of their A; what cuts add is of max A, for near b they round b - a of a far a.
+//   An error of t moves a cut vertex along the edge: so cut edges obey the same bound.
 // A point (X, Y, W) = w d that moves by (eX, eY, eW) moves in the window by (eX - x eW) / w, to first order.
 constexpr double kRoundingsUncut = 14;
-constexpr double kRoundingsCut = 24;
+constexpr double kRoundingsOfCuts = 10;
+constexpr double kRoundingsCut = kRoundingsUncut + kRoundingsOfCuts;
 /// Roundings of the scaling and translation to the window, of the window's size: 2, and 2 spare.
 constexpr double kWindowRoundings = 4;
 /// A matrix entry below this is 0 in float (float_matrices()): an error of its whole size, 2^24 roundings.
@@ -197,14 +199,19 @@ void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
 /// Sets the displacements of the triangle's points at a pixel beyond first order: `reach`, `growth` and `loose`.
 /// - An error of e in w multiplies the displacement of a quotient by w / (w - e); from e = w/2 on, beside the eye, the
 ///   point may be anywhere.
-/// - A point is displaced by C / w (float_displacement()), and 1/w is affine in the window: s pixels from the point
-///   nearest to a pixel the displacement grows by up to C g s, g the slope of 1/w. Such a point reaches the pixel if
-///   s <= moved + C g s: 1 / (1 - C g) times as far. From C g = 1/2 on the largest displacement is taken for all.
-void set_growth(const Projected& scene, Triangle& t) {
-  const double in_float = kFloatRounding * t.roundings, of_w = in_float * t.size.w / t.w_min;
+/// - A point is displaced by C / w (float_displacement()), where C is a mean of the corners' C_i, weighted by b_i, plus a
+///   constant: b_i / w = e_i / det and 1/w are affine in the window. With g its slope, the displacement grows by up to
+///   g s over s pixels from the point nearest to a pixel. Such a point reaches the pixel if s <= moved + g s: 1 / (1 - g)
+///   times as far. From g = 1/2 on the largest displacement is taken for all.
+void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
+  const double of_w = kFloatRounding * t.roundings * t.size.w / t.w_min;
   const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height);
-  const double moved = in_float * glm::length(glm::dvec2(t.size) + half * t.size.w);
-  const double grows = moved * glm::length(glm::dvec2(t.w_plane));
+  const auto moved = [&](const glm::dvec4& size) { return glm::length(glm::dvec2(size) + half * size.w); };
+  glm::dvec2 of_corners(0);
+  for (std::size_t i = 0; i < 3; ++i) of_corners += moved(c[i]->size) * glm::dvec2(t.n[i]);
+  const double grows =
+      kFloatRounding * (kRoundingsUncut * glm::length(of_corners) / std::abs(glm::dot(c[0]->v, t.n[0])) +
+                        (t.roundings - kRoundingsUncut) * moved(t.size) * glm::length(glm::dvec2(t.w_plane)));
   if (of_w < 0.5) {
     t.reach /= 1 - of_w;
     t.growth = grows < 0.5 ? 1 / (1 - grows) : std::numeric_limits<double>::infinity();
@@ -264,7 +271,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
     farthest = glm::max(farthest, glm::abs(part.v[i] / w));
   }
   t.reach = displacement(scene, t, farthest, t.w_min);
-  set_growth(scene, t);
+  set_growth(scene, c, t);
   const Widths width = widths(p_window, part.count, 2 * t.reach);
   t.altitude = t.cut ? width.pieces : width.whole;
   t.fat_altitude = t.cut ? width.fat : width.whole;
@@ -278,28 +285,32 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
 
 }  // namespace
 
-namespace {
-
-glm::dvec2 displacement_of(const Projected& scene, const glm::dvec4& size, double roundings, glm::dvec3 d, double w) {
-  const glm::dvec2 from_middle = glm::abs(glm::dvec2(d)) + glm::abs(scene.sample);
-  const glm::dvec2 in_clip = (glm::dvec2(size) + from_middle * size.w) * (roundings / w);
-  return kFloatRounding * (in_clip + kWindowRoundings * glm::dvec2(scene.width, scene.height));
+glm::dvec4 clip_error(const Projected& scene, const Triangle& t, glm::dvec3 d) {
+  const glm::dvec3 e =
+      glm::max(t.sign * glm::dvec3(glm::dot(t.n[0], d), glm::dot(t.n[1], d), glm::dot(t.n[2], d)), 0.0);
+  const double sum = e.x + e.y + e.z;
+  if (t.flat || !(sum > 0)) return kFloatRounding * t.roundings * t.size;
+  glm::dvec4 of_corners(0);
+  for (glm::length_t i = 0; i < 3; ++i)
+    of_corners += e[i] / sum * scene.corners[t.corner[static_cast<std::size_t>(i)]].size;
+  return kFloatRounding * (kRoundingsUncut * of_corners + (t.roundings - kRoundingsUncut) * t.size);
 }
 
-}  // namespace
-
-glm::dvec2 float_displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
-  return displacement_of(scene, t.size, t.roundings, d, w);
+glm::dvec2 float_displacement(const Projected& scene, const glm::dvec4& error, glm::dvec3 d, double w) {
+  const glm::dvec2 from_middle = glm::abs(glm::dvec2(d)) + glm::abs(scene.sample);
+  return (glm::dvec2(error) + from_middle * error.w) / w +
+         kFloatRounding * kWindowRoundings * glm::dvec2(scene.width, scene.height);
 }
 
 glm::dvec2 corner_displacement(const Projected& scene, const Corner& c) {
   const double w = c.v.z, of_w = kRoundingsUncut * kFloatRounding * c.size.w / w;
   if (!(w > 0) || !(of_w < 0.5)) return glm::dvec2(std::numeric_limits<double>::infinity());
-  return displacement_of(scene, c.size, kRoundingsUncut, c.v / w, w) / (1 - of_w);  // as set_growth() has it
+  return float_displacement(scene, kFloatRounding * kRoundingsUncut * c.size, c.v / w, w) /
+         (1 - of_w);  // as set_growth() has it
 }
 
 double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
-  return scene.snap + glm::length(float_displacement(scene, t, d, w));
+  return scene.snap + glm::length(float_displacement(scene, kFloatRounding * t.roundings * t.size, d, w));
 }
 
 namespace {

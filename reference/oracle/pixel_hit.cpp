@@ -34,7 +34,7 @@ void set_window_depth(const Triangle& t, bool clamps, const PixelDepth& plane, d
 /// Error of z_view due to the error of the corners' depths, at a point whose z_view is `z`.
 double corner_error_at(const PixelSite& site, double z, bool clamps) {
   const double from_middle = std::abs(2 * z - 1), z_ndc = clamps ? from_middle : std::min(from_middle, 1.0);
-  return kFloatRounding * (site.t.roundings * (site.t.size.z + z_ndc * site.t.size.w) / (2 * site.w) + 1);
+  return (site.clip_error.z + z_ndc * site.clip_error.w) / (2 * site.w) + kFloatRounding;
 }
 
 /// Whether the near or the far plane certainly cuts the triangle off at the pixel. What is left of the triangle is a

@@ -66,7 +66,9 @@ PixelSite::PixelSite(const Projected& projected, const Triangle& triangle, int p
   place();
   w = std::clamp(w, t.w_min, t.w_max);
   in_reach = inside || t.loose || border <= t.reach;
-  if (in_reach) moved = float_displacement(scene, t, nearest, w);
+  if (!in_reach) return;
+  clip_error = math::clip_error(scene, t, nearest);
+  moved = float_displacement(scene, clip_error, nearest, w);
 }
 
 void PixelSite::place() {
@@ -152,12 +154,14 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
     const glm::dvec4 a = glm::abs(v);
     return std::max({a.x, a.y, a.z, a.w});
   };
-  glm::dvec4 value(0), slope_x(0), slope_y(0);
+  glm::dvec4 value(0), slope_x(0), slope_y(0), of_x(0), of_y(0);  // of_x, of_y: slopes of the numerator
   double error = 0, spread = 0, most = 0;
   const glm::dvec3 n_sum = n[0] + n[1] + n[2];
   for (std::size_t i = 0; i < 3; ++i) {
     const double b = e[static_cast<glm::length_t>(i)] / sum;
     value += b * corners[i].value;
+    of_x += n[i].x / sum * corners[i].value;
+    of_y += n[i].y / sum * corners[i].value;
     slope_x += (n[i].x - b * n_sum.x) / sum * corners[i].value;
     slope_y += (n[i].y - b * n_sum.y) / sum * corners[i].value;
     error = std::max(error, corners[i].bound);
@@ -171,7 +175,11 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
   const glm::dvec2 from_place = weight * moved + (snapped ? weight : may_turn_over(certain) ? 1.0 : 0.0) * scene.step;
-  const double shares = near_end * shares_error_in_float(scene, t, centre);
+  // Slopes of numerator and denominator, whose largest values are `most` and 1 times near_end, in units of 1/w here.
+  const double of_numerator = most > 0 ? std::hypot(largest(of_x), largest(of_y)) / most : 0,
+               of_denominator = std::hypot(n_sum.x, n_sum.y) / std::abs(sum),
+               steepest = std::max(of_numerator, of_denominator) / near_end;
+  const double shares = near_end * shares_error_in_float(scene, t, centre, piece_altitudes(certain), steepest);
   return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + attribute_error(shares, most) +
                      value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +
                                      32 * kFloatRounding * near_end * std::max(most, 1.0))};

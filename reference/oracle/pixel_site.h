@@ -35,14 +35,15 @@ class PixelSite {
   const Projected& scene;
   const Triangle& t;
   glm::ivec2 pixel;
-  glm::dvec3 d;           ///< the ray of the pixel's sample
-  bool inside = false;    ///< in the closed triangle, in double
-  bool by_ties = false;   ///< inside, with edges by the tie rule
-  double border = 0;      ///< distance to the triangle's border [pixels]
-  glm::dvec3 nearest{0};  ///< the point of the triangle nearest to d
-  double w = 0;           ///< clip w at `nearest`, within that of the triangle's visible part
-  bool in_reach = false;  ///< a legal renderer may cover the pixel; else `moved` is not set
-  glm::dvec2 moved{0};    ///< largest displacement of the triangle by float arithmetic at `nearest` [pixels]
+  glm::dvec3 d;              ///< the ray of the pixel's sample
+  bool inside = false;       ///< in the closed triangle, in double
+  bool by_ties = false;      ///< inside, with edges by the tie rule
+  double border = 0;         ///< distance to the triangle's border [pixels]
+  glm::dvec3 nearest{0};     ///< the point of the triangle nearest to d
+  double w = 0;              ///< clip w at `nearest`, within that of the triangle's visible part
+  bool in_reach = false;     ///< a legal renderer may cover the pixel; else the next two are not set
+  glm::dvec4 clip_error{0};  ///< clip_error() at `nearest`
+  glm::dvec2 moved{0};       ///< largest displacement of the triangle by float arithmetic at `nearest` [pixels]
 
   /// Least altitudes of the pieces for which a renderer may set up a plane at this pixel.
   PieceAltitudes piece_altitudes(bool certain) const;

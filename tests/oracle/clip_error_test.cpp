@@ -1,0 +1,81 @@
+// Errors of clip coordinates in float: a mean of the corners' own, so that a far corner opens nothing near by.
+#include <gtest/gtest.h>
+
+#include "reference/arithmetic/error_in_float.h"
+#include "reference/arithmetic/project.h"
+#include "reference/oracle/oracle.h"
+#include "scene/scene.h"
+
+namespace plumbline::math {
+namespace {
+
+// A floor that begins behind the eye and ends at the horizon, before a near plane at 1e-4.
+Scene floor_across_the_eye() {
+  Scene scene;
+  scene.name = "floor";
+  scene.frame.width = 80, scene.frame.height = 60;
+  scene.frame.depth = DepthFormat::z32f;
+  scene.camera = {{0, 1, 2}, {0, 0.6f, 0}, {0, 1, 0}};
+  scene.projection = Perspective{60, 1e-4f, 100};
+  Mesh mesh;
+  for (const glm::vec2 p : {glm::vec2(-40, 20), {40, 20}, {40, -90}, {-40, -90}}) {
+    mesh.positions.emplace_back(p.x, 0, p.y);
+    mesh.colors.emplace_back(0.5f, 0.25f + p.y / 400, 1, 1);
+  }
+  mesh.normals.assign(4, glm::vec3(0, 1, 0));
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.meshes = {mesh};
+  Draw draw;
+  draw.lit = false;
+  scene.draws = {draw};
+  return scene;
+}
+
+TEST(ClipError, IsAMeanOfTheCornersErrors) {
+  const Projected scene = project(floor_across_the_eye());
+  const Triangle& t = scene.triangles[0];
+  const auto ray = [](const glm::dvec3& v) { return v / v.z; };
+  const Corner &near = scene.corners[t.corner[0]], &far = scene.corners[t.corner[2]];
+  ASSERT_LT(near.v.z, 0);
+  ASSERT_LT(3 * near.size.w, far.size.w);
+  double before = 0;
+  for (const double share : {0.25, 0.5, 1.0}) {  // of the way to the far corner
+    const double error = clip_error(scene, t, ray(glm::mix(near.v, far.v, share))).w;
+    EXPECT_GT(error, before);
+    before = error;
+  }
+  EXPECT_NEAR(before, kFloatRounding * t.roundings * far.size.w, 1e-9);
+  EXPECT_LT(clip_error(scene, t, ray(glm::mix(near.v, far.v, 0.25))).w, 0.75 * before);
+}
+
+TEST(ClipError, LeavesAFloorBehindATinyNearPlaneKnown) {
+  Request request;
+  request.legal = true;
+  const Legal legal = legal_by_boxes(floor_across_the_eye(), request);
+  ASSERT_EQ(legal.at(30, 40).size(), 1u);
+  EXPECT_EQ(legal.at(30, 40)[0].primitive, kBackground);
+  for (const glm::ivec2 p : {glm::ivec2(30, 20), {5, 3}, {70, 25}}) {
+    ASSERT_EQ(legal.at(p.x, p.y).size(), 1u) << p.x << ',' << p.y;
+    EXPECT_NE(legal.at(p.x, p.y)[0].primitive, kBackground);
+  }
+}
+
+// v/w and 1/w are stepped in pieces of a cut triangle, too; double rounds nothing.
+TEST(ClipError, OfSharesCountsThePiecesOfACutTriangle) {
+  Conventions stepped;
+  stepped.depth_arithmetic = Conventions::DepthArithmetic::in_float_stepped;
+  const Projected scene = project(floor_across_the_eye(), stepped), in_double = project(floor_across_the_eye());
+  const Triangle& t = scene.triangles[0];
+  ASSERT_TRUE(t.cut && !t.ahead);
+  const glm::dvec3 d = scene.ray(60, 10);
+  const PieceAltitudes wide{20, 20}, thin{1, 1}, none{0, 0};
+  const double error = shares_error_in_float(scene, t, d, wide, 0.01);
+  EXPECT_GT(error, 80 * kFloatRounding) << "a rounding a column";
+  EXPECT_GT(shares_error_in_float(scene, t, d, wide, 0.02), error);
+  EXPECT_GT(shares_error_in_float(scene, t, d, thin, 0.01), error);
+  EXPECT_EQ(shares_error_in_float(scene, t, d, none, 0.01), 0) << "without area, not bounded";
+  EXPECT_EQ(shares_error_in_float(in_double, t, d, wide, 0.01), 0);
+}
+
+}  // namespace
+}  // namespace plumbline::math
