@@ -77,16 +77,19 @@ class RunComparison {
   }
 
   // If both runs are legal: compares each of the candidate's records with the reference's record of the same answer, if
-  // there is one, else with the answer itself. False: a run is not legal.
+  // there is one, else with the answer itself. False: a run is not legal. (The reference's area is that on a grid of
+  // 1/256 pixel: its run need not be legal beside positions in float.)
   bool as_legal(Run mine, Run theirs, std::size_t first) {
     const auto lists = legal_.of((mine.empty() ? theirs : mine).front().primitive);
     const auto list_of = [&](Run run) {
       return std::ranges::find_if(lists, [&](const auto& list) { return legal_.match(run, list).has_value(); });
     };
     const auto my_list = list_of(mine), their_list = list_of(theirs);
-    if (my_list == lists.end() || their_list == lists.end()) return false;
-    const auto my_answers = legal_.match(mine, *my_list).value(),
-               their_answers = legal_.match(theirs, *their_list).value();
+    const bool is_own_grid = conventions_.subpixel_bits != Conventions::kFloat;
+    if (my_list == lists.end() || (is_own_grid && their_list == lists.end())) return false;
+    using Answers = std::vector<std::size_t>;
+    const Answers my_answers = legal_.match(mine, *my_list).value(),
+                  their_answers = their_list == lists.end() ? Answers() : legal_.match(theirs, *their_list).value();
     for (std::size_t i = 0; i < mine.size(); ++i) {
       const WindowAnswer& answer = (*my_list)[my_answers[i]];
       if (answer.has_no_area) {

@@ -33,6 +33,10 @@ TEST_F(Window, TrianglesHaveAnAreaOnTheDeclaredGrid) {
       if (is_there && !has_area) mine.triangles.back().v[0].color.r = 0.125f;  // of nothing that is drawn
       EXPECT_EQ(passes(compare_window(scene, mine, exact, kFactor, grid)), is_there || !has_area) << bits << " bits";
     }
+    // A reference on the grid of 1/256 pixel has none.
+    const bool passes_beside_256 =
+        passes(compare_window(scene, on_grid(records, grid, true), on_grid(records, grid, false), kFactor, grid));
+    EXPECT_EQ(passes_beside_256, bits == Conventions::kFloat || !has_area) << bits << " bits";
   }
 }
 
