@@ -1,4 +1,4 @@
-// Sample position, grid of window positions, and tie rule.
+// Sample position, and grid of window positions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -263,93 +263,6 @@ void learn_grid(Prober& prober) {
   prober.found(bits, bits_text(c.subpixel_bits),
                evidence + (c.subpixel_bits == C::kFloat ? fmt::format(" (or {} bits or more)", kMostBits + 1) : ""));
   prober.found(rounding, c.subpixel_bits == C::kFloat ? "nearest" : name_of(c.subpixel_rounding), evidence);
-}
-
-namespace {
-
-// Coverage of one triangle.
-Plane<glm::vec4> alone(Prober& prober, const std::string& name, int size, const std::array<ProbeCorner, 3>& triangle) {
-  Scene scene = probe_frame(name, size, size);
-  add_triangles(scene, std::span(&triangle, 1));
-  return prober.draw(scene).color;
-}
-
-// Number of samples on the inner edges of a fan that no triangle, one, or several cover.
-struct Shared {
-  std::size_t none = 0, one = 0, more = 0;
-};
-Shared shared_edges(Prober& prober, glm::dvec2 sample) {
-  constexpr int kFan = 16, kSpokes = 16;
-  constexpr std::array<glm::ivec2, kSpokes> around = {{{6, 0},
-                                                       {6, 3},
-                                                       {6, 6},
-                                                       {3, 6},
-                                                       {0, 6},
-                                                       {-3, 6},
-                                                       {-6, 6},
-                                                       {-6, 3},
-                                                       {-6, 0},
-                                                       {-6, -3},
-                                                       {-6, -6},
-                                                       {-3, -6},
-                                                       {0, -6},
-                                                       {3, -6},
-                                                       {6, -6},
-                                                       {6, -3}}};
-  const glm::dvec2 middle = glm::dvec2(8) + sample;
-  Plane<int> count(kFan, kFan);
-  for (std::size_t i = 0; i < kSpokes; ++i) {
-    const auto at = [&](glm::dvec2 p) { return ProbeCorner{{p, 0.5}, glm::vec4(1), {}}; };
-    const Plane<glm::vec4> color =
-        alone(prober, "fan", kFan,
-              {at(middle), at(middle + glm::dvec2(around[i])), at(middle + glm::dvec2(around[(i + 1) % kSpokes]))});
-    for (std::size_t k = 0; k < count.size(); ++k) count.values()[k] += is_white(color.values()[k]) ? 1 : 0;
-  }
-  Shared out;
-  for (int y = -5; y <= 5; ++y) {
-    for (int x = -5; x <= 5; ++x) {
-      const auto on_spoke = [&](const glm::ivec2& end) { return x * end.y == y * end.x; };
-      if (std::ranges::none_of(around, on_spoke)) continue;
-      const int triangles = count(8 + x, 8 + y);
-      ++(triangles == 0 ? out.none : triangles == 1 ? out.one : out.more);
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
-void learn_ties(Prober& prober) {
-  const ConventionWords words = words_of("tie_rule");
-  C& c = prober.learned.conventions;
-  if (prober.is_open(kSampleWords.name)) return prober.open(words, "the sample's place is open");
-  const double steps = c.subpixel_bits == C::kFloat ? 1024 : std::ldexp(1.0, c.subpixel_bits);
-  if (c.sample * steps != glm::round(c.sample * steps)) {
-    return prober.open(words, "no edge can be laid through a sample: its place is not on the grid");
-  }
-  Scene scene = probe_frame("edges", 16, 16);
-  add_triangles(scene, rectangle(glm::dvec2(3) + c.sample, glm::dvec2(9) + c.sample, 0.5, glm::vec4(1)));
-  const Plane<glm::vec4> color = prober.draw(scene).color;
-  const bool left = is_white(color(3, 6)), right = is_white(color(9, 6)), bottom = is_white(color(6, 3)),
-             top = is_white(color(6, 9));
-  const Shared shared = shared_edges(prober, c.sample);
-  const std::size_t all = shared.none + shared.one + shared.more;
-  const std::string evidence = fmt::format("{} of {} samples on a fan's edges are in one triangle", shared.one, all);
-  using enum C::TieRule;
-  if (left != right && bottom != top && shared.one == all) {
-    c.tie_rule = left ? (bottom ? left_bottom : left_top) : (bottom ? right_bottom : right_top);
-  } else if (shared.one == all) {
-    c.tie_rule = any;
-  } else if (left && right && bottom && top && shared.none == 0) {
-    c.tie_rule = inclusive;
-  } else if (!left && !right && !bottom && !top && shared.more == 0) {
-    c.tie_rule = exclusive;
-  } else {
-    return prober.fits_none(
-        words, fmt::format("of {} samples on a fan's edges, {} are in no triangle (cracks), {} in several", all,
-                           shared.none, shared.more));
-  }
-  prober.found(words, name_of(c.tie_rule), evidence);
 }
 
 }  // namespace plumbline::learn

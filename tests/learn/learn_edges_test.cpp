@@ -106,5 +106,25 @@ TEST(LearnEdges, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
   EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected));
 }
 
+// Pixel (37, 33) is one whose sample lies on a slanted edge, between two triangles of two frames.
+TEST(LearnTies, ARuleHoldsOnSlantedEdgesTooOrNoneIsFound) {
+  const auto learned_with = [](auto alter) {
+    auto renderer = std::make_unique<OfAlteredScenes>();
+    renderer->after = [alter](const Scene& scene, Capture& out) {
+      if (scene.name.ends_with("slanted")) alter(out.planes.color(37, 33));
+    };
+    return learned(std::move(renderer));
+  };
+  const glm::vec4 black(0, 0, 0, 1), white(1);
+  EXPECT_EQ(learned_with([](glm::vec4&) {}).tie_rule, C::TieRule::left_bottom);
+  const C other = learned_with([&](glm::vec4& color) { color = color.r > 0.5f ? black : white; });
+  EXPECT_EQ(other.tie_rule, C::TieRule::any);
+  EXPECT_TRUE(mistaken(other).empty());
+  for (const glm::vec4& of_both : {black, white}) {
+    const C wrong = learned_with([&](glm::vec4& color) { color = of_both; });
+    EXPECT_FALSE(mistaken(wrong).empty()) << "a crack, or painted twice";
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::learn

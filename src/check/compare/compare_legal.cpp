@@ -104,7 +104,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
     const glm::vec4 c = color(x, y);
     const auto answers = answers_of_winner(legal, candidate, x, y);
     if (answers.empty()) {  // visibility judges the winner; here any finite colour holds
-      for (int i = 0; i < 4; ++i) add_finite_value(meter, c[i], {x, y, winner_at(candidate, x, y), "color"});
+      for (int i = 0; i < 4; ++i) add_finite_value(meter, c[i], {x, y, winner_at(candidate, x, y), "color", true});
       return;
     }
     const bool one_holds = std::ranges::any_of(answers, [&](const LegalAnswer& a) { return holds(a, x, y); });
@@ -116,7 +116,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
     const bool is_any = rule.stored.scale > 0 ? !(nearest.color_bound < 1) : !std::isfinite(nearest.color_bound);
     if (is_any && legal.at(x, y).size() == 1) meter.ambiguous();
     for (int i = 0; i < 4; ++i) {
-      meter.value(rule.apart(c[i], nearest, i), rule.factor, {x, y, nearest.primitive, "color"}, c[i],
+      meter.value(rule.apart(c[i], nearest, i), rule.factor, {x, y, nearest.primitive, "color", true}, c[i],
                   rule.wanted(nearest, i));
     }
   });
@@ -144,7 +144,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
       return distance_outside(is_of_fragment(a) ? middle : z, a.z_lo, a.z_hi) / step;
     };
     if (answers.empty()) {
-      return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z"}, z, 0);
+      return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z", true}, z, 0);
     }
     const double of_clear = tolerance(Profile::oracle, Stage::depth).factor;
     const auto most_apart = [&](const LegalAnswer& a) {
@@ -158,7 +158,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
     const bool is_code = std::abs(codes - std::nearbyint(codes)) <= kRoundings;
     const double most = most_apart(nearest);
     meter.value(is_code ? apart(nearest) : std::max(apart(nearest), 2 * most), most,
-                {x, y, nearest.primitive, is_code ? "z" : "z that is no code"}, z, expected);
+                {x, y, nearest.primitive, is_code ? "z" : "z that is no code", true}, z, expected);
   });
 }
 
