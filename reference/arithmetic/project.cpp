@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <unordered_map>
 
 #include "capture/stages.h"
@@ -231,8 +232,8 @@ void set_guarded(const Projected& scene, const std::array<const Corner*, 3>& c, 
     p_window[i] = glm::dvec2(part.v[i]) / std::max(part.v[i].z, kFloatRounding * t.size.w);
     farthest = glm::max(farthest, glm::abs(p_window[i]));
   }
-  const Widths width = widths(p_window, part.count, 2 * t.reach);
-  t.guarded = {width.pieces, width.fat, 2.0 * farthest};
+  const std::span corners = std::span(p_window).first(part.count);
+  t.guarded = {widths(corners).pieces, {corners.begin(), corners.end()}, 2.0 * farthest};
 }
 
 void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
@@ -272,9 +273,10 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   }
   t.reach = displacement(scene, t, farthest, t.w_min);
   set_growth(scene, c, t);
-  const Widths width = widths(p_window, part.count, 2 * t.reach);
+  const std::span corners = std::span(p_window).first(part.count);
+  const Widths width = widths(corners);
   t.altitude = t.cut ? width.pieces : width.whole;
-  t.fat_altitude = t.cut ? width.fat : width.whole;
+  if (t.cut) t.outline.assign(corners.begin(), corners.end());
   if (cut_in_depth) set_guarded(scene, c, t);
   t.offset = polygon_offset(scene, t, draw.polygon_offset);
   t.thin = t.flat || width.whole <= 2 * t.reach;

@@ -67,11 +67,14 @@ struct Triangle {
   OffsetBounds offset;              ///< the polygon offset
   double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
   double altitude = 0;              ///< [pixels] least altitude of all pieces for which a renderer may set up a plane
-  double fat_altitude = 0;  ///< likewise, of pieces above 2 reach: thinner ones may turn over, and lie along the border
+  /// Of a cut triangle: corners of its visible part, of which any three may be a piece's [pixels from the window's
+  /// middle].
+  std::vector<glm::dvec2> outline;
   /// Pieces cut at the near and far planes alone, where these may cut: corners may lie far outside the window.
   struct Guarded {
-    double altitude = 0, fat_altitude = 0;  ///< as above
-    glm::dvec2 extent{0};                   ///< [pixels] twice their corners' largest distance from its middle
+    double altitude = 0;              ///< as above
+    std::vector<glm::dvec2> outline;  ///< as above
+    glm::dvec2 extent{0};             ///< [pixels] twice their corners' largest distance from its middle
   } guarded;
   double reach = 0;   ///< [pixels] largest displacement of a vertex over its visible part
   double growth = 1;  ///< factor: displacement at the point nearest to a pixel -> bound for all points near it

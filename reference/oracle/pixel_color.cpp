@@ -163,7 +163,7 @@ BoundedFour FragmentColor::textured(const BoundedFour& color) const {
   const BoundedFour st = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.texcoord, 0, 0), 0}; });
   const Texture& texture = scene_.textures.at(draw_.texture->texture);
   const LevelRules rules = level_rules(site_.scene.conventions);
-  const BoundedPlace place = place_in_texture(texture, site_, st, rules, site_.slopes_off(certain_));
+  const BoundedPlace place = place_in_texture(texture, site_, st, rules, site_.slopes_off());
   return bounded_textured_color(texture, *draw_.texture, color, place, rules);
 }
 

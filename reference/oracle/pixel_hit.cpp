@@ -80,8 +80,8 @@ void set_depth(const PixelSite& site, PixelHit& out) {
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  set_window_depth(t, clamps, {view.z, half, view.slope}, lo, hi, weight,
-                   error_in_float(scene, t, site.d, site.piece_altitudes(out.hit.certain)), out);
+  set_window_depth(t, clamps, {view.z, half, view.slope}, lo, hi, weight, error_in_float(scene, t, site.d, site.pieces),
+                   out);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "capture/float_depth.h"
 #include "reference/arithmetic/error_in_float.h"
+#include "reference/arithmetic/widths.h"
 
 namespace plumbline::math {
 
@@ -69,6 +70,7 @@ PixelSite::PixelSite(const Projected& projected, const Triangle& triangle, int p
   if (!in_reach) return;
   clip_error = math::clip_error(scene, t, nearest);
   moved = float_displacement(scene, clip_error, nearest, w);
+  find_pieces();
 }
 
 void PixelSite::place() {
@@ -107,16 +109,14 @@ void PixelSite::place() {
   }
 }
 
-PieceAltitudes PixelSite::piece_altitudes(bool certain) const {
-  // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
-  // is deep inside, far from the triangle's edges, the near and far cuts, and the frame's border (half a pixel away).
-  const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
-  const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
-  const bool deep = certain && border > margin && margin < from_frame &&
-                    std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
+// A piece that rounding and snapping move by up to `reach` covers the pixel only if it came within `reach` of it.
+void PixelSite::find_pieces() {
   const double moved_by = 2 * (t.reach - scene.snap);
-  return {(deep ? t.fat_altitude : t.altitude) - moved_by,
-          (deep ? t.guarded.fat_altitude : t.guarded.altitude) - moved_by};
+  const auto thinnest = [&](double of_all, const std::vector<glm::dvec2>& outline) {
+    const double here = thinnest_piece(outline, glm::dvec2(d), 2 * t.reach);
+    return (std::isfinite(here) ? here : of_all) - moved_by;
+  };
+  pieces = {thinnest(t.altitude, t.outline), thinnest(t.guarded.altitude, t.guarded.outline)};
 }
 
 double PixelSite::snap_weight(bool certain) const {
@@ -126,7 +126,7 @@ double PixelSite::snap_weight(bool certain) const {
   // are negative, each by no more than the step over the altitude. A triangle that is cut is drawn in pieces, which
   // have such borders inside it too.
   if (certain && !t.cut) return 1;
-  const double altitude = piece_altitudes(certain).framed;
+  const double altitude = pieces.framed;
   return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
 }
 
@@ -179,15 +179,15 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const double of_numerator = most > 0 ? std::hypot(largest(of_x), largest(of_y)) / most : 0,
                of_denominator = std::hypot(n_sum.x, n_sum.y) / std::abs(sum),
                steepest = std::max(of_numerator, of_denominator) / near_end;
-  const double shares = near_end * shares_error_in_float(scene, t, centre, piece_altitudes(certain), steepest);
+  const double shares = near_end * shares_error_in_float(scene, t, centre, pieces, steepest);
   return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + attribute_error(shares, most) +
                      value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +
                                      32 * kFloatRounding * near_end * std::max(most, 1.0))};
 }
 
-double PixelSite::slopes_off(bool certain) const {
+double PixelSite::slopes_off() const {
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
-  const double altitude = certain ? t.fat_altitude : t.altitude, by = glm::length(moved) + (snapped ? scene.snap : 0);
+  const double altitude = pieces.framed, by = glm::length(moved) + (snapped ? scene.snap : 0);
   const double of_w = t.roundings * kFloatRounding * t.size.w / t.w_min;
   constexpr double kAnything = 1e30;
   return altitude > 0 ? std::min(4 * by / altitude + 4 * of_w + 16 * kFloatRounding, kAnything) : kAnything;

@@ -41,12 +41,11 @@ class PixelSite {
   double border = 0;         ///< distance to the triangle's border [pixels]
   glm::dvec3 nearest{0};     ///< the point of the triangle nearest to d
   double w = 0;              ///< clip w at `nearest`, within that of the triangle's visible part
-  bool in_reach = false;     ///< a legal renderer may cover the pixel; else the next two are not set
+  bool in_reach = false;     ///< a legal renderer may cover the pixel; else the next three are not set
   glm::dvec4 clip_error{0};  ///< clip_error() at `nearest`
+  PieceAltitudes pieces{};   ///< of the pieces that may cover the pixel, less what rounding takes off
   glm::dvec2 moved{0};       ///< largest displacement of the triangle by float arithmetic at `nearest` [pixels]
 
-  /// Least altitudes of the pieces for which a renderer may set up a plane at this pixel.
-  PieceAltitudes piece_altitudes(bool certain) const;
   /// S: factor by which the errors of a plane's corners may grow at a pixel of its triangle; infinite: without bound.
   double snap_weight(bool certain) const;
   /// Whether snapping may turn over the triangle, or the piece of it that covers the pixel.
@@ -58,10 +57,11 @@ class PixelSite {
   BoundedFour attribute(const std::array<BoundedFour, 3>& corners, bool certain) const;
   /// Relative error of a renderer's slopes of attributes: corners displaced by float arithmetic or snapping tilt a plane
   /// by the displacement over its altitude; w adds its own error, the evaluation 16 u.
-  double slopes_off(bool certain) const;
+  double slopes_off() const;
 
  private:
   void place();
+  void find_pieces();
   double centre_weight(bool certain) const;
 };
 

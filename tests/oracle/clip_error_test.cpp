@@ -1,8 +1,13 @@
 // Errors of clip coordinates in float: a mean of the corners' own, so that a far corner opens nothing near by.
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "reference/arithmetic/error_in_float.h"
 #include "reference/arithmetic/project.h"
+#include "reference/arithmetic/widths.h"
 #include "reference/oracle/oracle.h"
 #include "scene/scene.h"
 
@@ -75,6 +80,33 @@ TEST(ClipError, OfSharesCountsThePiecesOfACutTriangle) {
   EXPECT_GT(shares_error_in_float(scene, t, d, thin, 0.01), error);
   EXPECT_EQ(shares_error_in_float(scene, t, d, none, 0.01), 0) << "without area, not bounded";
   EXPECT_EQ(shares_error_in_float(in_double, t, d, wide, 0.01), 0);
+}
+
+// A band of 100 x 10 pixels, one of whose corners is cut off by 0.01 pixel: the thin pieces lie along a diagonal and at
+// the cut.
+TEST(Pieces, CountWhereTheyComeNearThePoint) {
+  const std::vector<glm::dvec2> band = {{0, 0}, {100, 0}, {100, 9.99}, {99.99, 10}, {0, 10}};
+  EXPECT_LT(widths(band).pieces, 0.02);
+  EXPECT_NEAR(thinnest_piece(band, {50, 8}, 0), 9.9, 0.2) << "far from the diagonal of the thin pieces";
+  EXPECT_LT(thinnest_piece(band, {50, 5}, 0.01), 0.02) << "on it";
+  EXPECT_LT(thinnest_piece(band, {50, 8}, 4), 0.02) << "within the margin";
+  EXPECT_TRUE(std::isinf(thinnest_piece(band, {50, 20}, 1))) << "outside";
+  EXPECT_TRUE(std::isinf(thinnest_piece({}, {0, 0}, 1)));
+}
+
+TEST(Pieces, ATrianglesDistanceIsThatOfItsBorderUnlessInside) {
+  const std::array<glm::dvec2, 3> left = {{{0, 0}, {4, 0}, {0, 3}}}, right = {{{0, 0}, {0, 3}, {4, 0}}},
+                                  line = {{{0, 0}, {2, 0}, {4, 0}}}, spot = {{{1, 1}, {1, 1}, {1, 1}}};
+  for (const auto& t : {left, right}) {
+    EXPECT_EQ(distance_to_triangle({1, 1}, t), 0);
+    EXPECT_EQ(distance_to_triangle({0, 0}, t), 0);
+    EXPECT_EQ(distance_to_triangle({-3, -4}, t), 5);
+    EXPECT_EQ(distance_to_triangle({2, -1}, t), 1);
+    EXPECT_NEAR(distance_to_triangle({4, 3}, t), 2.4, 1e-12);
+  }
+  EXPECT_EQ(distance_to_triangle({6, 0}, line), 2) << "in line, and beyond";
+  EXPECT_EQ(distance_to_triangle({3, 0}, line), 0);
+  EXPECT_EQ(distance_to_triangle({1, 2}, spot), 1);
 }
 
 }  // namespace
