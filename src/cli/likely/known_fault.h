@@ -3,17 +3,18 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "cli/likely/frames_apart.h"
 #include "scene/scene.h"
 
 namespace plumbline::cli {
 
-/// A known fault, and what it changes: the scene, a stage, the finished frame.
+/// A known fault, and what it changes: the scene, stages, the finished frame.
 struct KnownFault {
   std::string stage, name, says;  ///< stage: "file" where the frame is written
   std::function<void(Scene&)> of_scene = {};
-  std::string of_stage = {};  ///< a name of `plumb list faults`; empty: the fault changes no stage
+  std::vector<std::string> of_stages = {};  ///< names of `plumb list faults`, a stage each
   std::function<void(ColorAndDepth&)> of_frame = {};
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -138,6 +140,23 @@ void add_culls(std::vector<KnownFault>& out) {
   add("window.front_culled", "front faces are culled, though no face is to be", Cull::front);
 }
 
+// Faults of scanline rasterizers that several stages show, in their coverage, depths and attributes.
+void add_scanlines(std::vector<KnownFault>& out) {
+  const auto add = [&](const char* stage, const char* name, const char* says, std::vector<std::string> of_stages) {
+    out.push_back({.stage = stage, .name = name, .says = says, .of_stages = std::move(of_stages)});
+  };
+  add("coverage", "coverage.edges_begin_at_lower_corner",
+      "in its first row an edge has the x, depth and attributes of its lower corner",
+      {"coverage.edges_not_advanced", "depth.edges_not_advanced", "attributes.edges_not_advanced"});
+  add("coverage", "coverage.edges_begin_at_upper_corner",
+      "in its first row an edge has the x, depth and attributes of its upper corner",
+      {"coverage.edges_not_advanced_down", "depth.edges_not_advanced_down", "attributes.edges_not_advanced_down"});
+  add("depth", "depth.spans_begin_at_their_end", "a span's first pixel has the depth and attributes of the span's end",
+      {"depth.spans_not_advanced", "attributes.spans_not_advanced"});
+  add("depth", "depth.values_of_left_sides", "depths and attributes are those of the middle of pixels' left sides",
+      {"depth.at_left_side", "attributes.at_left_side"});
+}
+
 // Faults that change the finished frame, or draw a changed scene.
 std::vector<KnownFault> of_pictures(const FrameFormat& frame, bool has_alpha) {
   std::vector<KnownFault> out;
@@ -145,6 +164,7 @@ std::vector<KnownFault> of_pictures(const FrameFormat& frame, bool has_alpha) {
   add_encodings(out);
   add_culls(out);
   add_neighbours(frame, out);
+  add_scanlines(out);
   if (has_alpha) {
     const float cleared = frame.clear_color.a;
     out.push_back({.stage = "merge",
@@ -199,7 +219,7 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
     if (is_declared(fault.name, given.conventions)) continue;
     const std::string name(fault.name);
     out.push_back(
-        {.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .of_stage = name});
+        {.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .of_stages = {name}});
   }
   std::erase_if(out, [&](const KnownFault& f) { return is_of(given.right, f); });
   return out;
@@ -214,7 +234,7 @@ ColorAndDepth draw_with(std::span<const KnownFault* const> faults, const Scene& 
   }
   for (const KnownFault* f : faults) {
     if (f->of_scene) f->of_scene(changed);
-    if (!f->of_stage.empty()) of_stages.push_back(f->of_stage);
+    of_stages.insert(of_stages.end(), f->of_stages.begin(), f->of_stages.end());
   }
   Request request;
   request.planes = WantedPlanes::picture;

@@ -71,7 +71,7 @@ class Trial {
     return std::ranges::count(drawn.records.polygons.vertices, true, &ClipVertex<double>::cut);
   }
   ColorAndDepth frame_with(const KnownFaults& faults, CutAt cut_at, const ColorAndDepth& right) const {
-    const auto draws_anew = [](const KnownFault* f) { return f->of_scene || !f->of_stage.empty(); };
+    const auto draws_anew = [](const KnownFault* f) { return f->of_scene || !f->of_stages.empty(); };
     if (std::ranges::any_of(faults, draws_anew)) return draw_with(faults, scene_, conventions_, cut_at);
     ColorAndDepth out = right;
     for (const KnownFault* f : faults) f->of_frame(out);

@@ -1,0 +1,170 @@
+// Mistakes of scanline rasterizers, which step a triangle's edges from row to row and its values along each row's span.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "faults/lists.h"
+#include "faults/variants.h"
+
+namespace plumbline::faults {
+
+namespace {
+
+// Number of the first row, or column, whose centre is at `at` or beyond [1/256 pixel].
+int first_centre(double at) { return static_cast<int>(std::ceil(at / kSubpixel)); }
+
+// x where the edge crosses a row's centre [1/256 pixel]: `lower` and `upper` are its ends.
+double x_at_row(glm::dvec2 lower, glm::dvec2 upper, int row) {
+  return lower.x + (row * kSubpixel - lower.y) * (upper.x - lower.x) / (upper.y - lower.y);
+}
+
+// End of an edge at which it begins: rows are stepped upwards or downwards.
+enum class From { below, above };
+
+// The edge's x in its first row is that of the end at which it begins.
+template <From from>
+double x_not_advanced(glm::dvec2 lower, glm::dvec2 upper, int row) {
+  const double slope = (upper.x - lower.x) / (upper.y - lower.y),
+               first = from == From::below ? first_centre(lower.y) : first_centre(upper.y) - 1,
+               begin = from == From::below ? lower.y : upper.y;
+  return x_at_row(lower, upper, row) + (begin - first * kSubpixel) * slope;
+}
+
+// What is left out: the row below the middle corner, or the one above it; the first or the last pixel of each span.
+enum class Lost { none, below_middle, above_middle, first_pixels, last_pixels };
+
+bool is_lost(Lost lost, const std::array<double, 3>& corners_y, int row) {
+  std::array<double, 3> y = corners_y;
+  std::ranges::sort(y);
+  const int middle = first_centre(y[1]);
+  if (lost == Lost::below_middle) return row == middle - 1 && y[0] < y[1];
+  return lost == Lost::above_middle && row == middle && y[1] < y[2];
+}
+
+// Triangle's pixels by spans, whose ends are x(lower, upper, row) on the edges: centres on the left end are in.
+template <auto x, Lost lost>
+PixelList by_spans(const Triangle& t, const PixelBounds& box) {
+  if (t.corners != 3) return pipeline::covered_pixels(t, box);
+  PixelList out;
+  const auto y = [&](std::size_t i) { return static_cast<double>(t.v[i].snapped.y); };
+  const PixelBounds b = pipeline::intersection(pipeline::pixel_bounds(t), box);
+  for (int row = b.y0; row < b.y1; ++row) {
+    std::optional<std::pair<double, double>> span;
+    for (std::size_t i = 0; i < 3; ++i) {
+      glm::dvec2 lower(t.v[i].snapped), upper(t.v[(i + 1) % 3].snapped);
+      if (lower.y > upper.y) std::swap(lower, upper);
+      if (row < first_centre(lower.y) || row >= first_centre(upper.y)) continue;
+      const double at = x(lower, upper, row);
+      span = span ? std::minmax({span->first, span->second, at}) : std::pair(at, at);
+    }
+    if (!span || is_lost(lost, {y(0), y(1), y(2)}, row)) continue;
+    const int first = first_centre(span->first) + (lost == Lost::first_pixels ? 1 : 0),
+              end = first_centre(span->second) - (lost == Lost::last_pixels ? 1 : 0);
+    for (int column = std::max(first, box.x0); column < std::min(end, box.x1); ++column) out.emplace_back(column, row);
+  }
+  return out;
+}
+
+// How far a pixel's centre, or row of centres, lies beyond `at` [pixels].
+double ahead_of(double at) { return std::ceil(at - 0.5) + 0.5 - at; }
+
+// Edge of a triangle that begins the span of a pixel's row. Edge i lies opposite corner i.
+struct SpanStart {
+  std::size_t edge = 3;  // none
+  double x = -std::numeric_limits<double>::infinity();
+};
+SpanStart span_start(const Setup& s, const Pixels<float>& p) {
+  const Barycentric at = pipeline::barycentric(s.planes, p);
+  const double value[] = {at.l0, at.l1, at.l2},
+               slope[] = {-s.planes.l1.x - s.planes.l2.x, s.planes.l1.x, s.planes.l2.x};
+  SpanStart out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (slope[i] > 0 && p.x_win - value[i] / slope[i] > out.x) out = {i, p.x_win - value[i] / slope[i]};
+  }
+  return out;
+}
+
+// y of a corner, where the edges of the other two meet.
+double y_of_corner(const Setup& s, const Pixels<float>& p, std::size_t corner) {
+  const Barycentric at = pipeline::barycentric(s.planes, p);
+  const auto &l1 = s.planes.l1, &l2 = s.planes.l2;
+  const double w1 = (corner == 1 ? 1.0 : 0.0) - at.l1, w2 = (corner == 2 ? 1.0 : 0.0) - at.l2;
+  return p.y_win + (l1.x * w2 - l2.x * w1) / (l1.x * l2.y - l2.x * l1.y);
+}
+
+Pixels<float> moved(const Pixels<float>& p, double x, double y) { return {p.x, p.y, p.x_win + x, p.y_win + y}; }
+
+// Place whose values a pixel has where spans begin with those of their end.
+Pixels<float> span_not_advanced(const Setup& s, const Pixels<float>& p) {
+  const SpanStart start = span_start(s, p);
+  return start.edge < 3 ? moved(p, -ahead_of(start.x), 0) : p;
+}
+
+// Likewise where edges begin with the values of their lower, or upper, corner.
+template <From from>
+Pixels<float> edge_not_advanced(const Setup& s, const Pixels<float>& p) {
+  const SpanStart start = span_start(s, p);
+  if (start.edge == 3) return p;
+  const auto [lower, upper] =
+      std::minmax({y_of_corner(s, p, (start.edge + 1) % 3), y_of_corner(s, p, (start.edge + 2) % 3)});
+  if (!std::isfinite(lower) || !std::isfinite(upper)) return p;
+  return moved(p, 0, from == From::below ? -ahead_of(lower) : 1 - ahead_of(upper));
+}
+
+Pixels<float> at_left_side(const Setup&, const Pixels<float>& p) { return moved(p, -0.5, 0); }
+
+template <auto place>
+float depth_at(const Setup& s, const Pixels<float>& p) {
+  return right_depth(s, place(s, p));
+}
+template <auto place>
+Color<float> attributes_at(const Setup& s, const pipeline::AttributeSetup& of, const Pixels<float>& p) {
+  return pipeline::mean<float>(of, weights_of(s, place(s, p)));
+}
+template <auto place>
+constexpr auto kDepth = put<&Stages::depth, depth_at<place>>;
+template <auto place>
+constexpr auto kAttributes = put<&Stages::attributes, attributes_at<place>>;
+template <auto x, Lost lost>
+constexpr auto kCoverage = put<&Stages::coverage, by_spans<x, lost>>;
+
+constexpr std::array kScanline = {
+    Fault{"coverage.edges_not_advanced", "an edge's x in its first row is that of its lower corner", Stage::coverage,
+          kCoverage<x_not_advanced<From::below>, Lost::none>},
+    Fault{"coverage.edges_not_advanced_down", "an edge's x in its first row is that of its upper corner",
+          Stage::coverage, kCoverage<x_not_advanced<From::above>, Lost::none>},
+    Fault{"coverage.row_below_middle_lost", "the last row below a triangle's middle corner is not drawn",
+          Stage::coverage, kCoverage<x_at_row, Lost::below_middle>},
+    Fault{"coverage.row_above_middle_lost", "the first row above a triangle's middle corner is not drawn",
+          Stage::coverage, kCoverage<x_at_row, Lost::above_middle>},
+    Fault{"coverage.first_of_spans_lost", "the first pixel of a triangle's row is not drawn", Stage::coverage,
+          kCoverage<x_at_row, Lost::first_pixels>},
+    Fault{"coverage.last_of_spans_lost", "the last pixel of a triangle's row is not drawn", Stage::coverage,
+          kCoverage<x_at_row, Lost::last_pixels>},
+    Fault{"depth.edges_not_advanced", "a left edge's depth in its first row is that of its lower corner", Stage::depth,
+          kDepth<edge_not_advanced<From::below>>},
+    Fault{"depth.edges_not_advanced_down", "a left edge's depth in its first row is that of its upper corner",
+          Stage::depth, kDepth<edge_not_advanced<From::above>>},
+    Fault{"depth.spans_not_advanced", "a span's first pixel has the depth of the span's end", Stage::depth,
+          kDepth<span_not_advanced>},
+    Fault{"depth.at_left_side", "depths are those of the middle of pixels' left sides", Stage::depth,
+          kDepth<at_left_side>},
+    Fault{"attributes.edges_not_advanced", "a left edge's attributes in its first row are those of its lower corner",
+          Stage::attributes, kAttributes<edge_not_advanced<From::below>>},
+    Fault{"attributes.edges_not_advanced_down",
+          "a left edge's attributes in its first row are those of its upper corner", Stage::attributes,
+          kAttributes<edge_not_advanced<From::above>>},
+    Fault{"attributes.spans_not_advanced", "a span's first pixel has the attributes of the span's end",
+          Stage::attributes, kAttributes<span_not_advanced>},
+    Fault{"attributes.at_left_side", "attributes are those of the middle of pixels' left sides", Stage::attributes,
+          kAttributes<at_left_side>},
+};
+
+}  // namespace
+
+std::span<const Fault> of_scanline() { return kScanline; }
+
+}  // namespace plumbline::faults
