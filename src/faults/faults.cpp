@@ -1,5 +1,9 @@
 #include "faults/faults.h"
 
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
 #include "faults/lists.h"
 #include "faults/notes.h"
 
@@ -27,6 +31,13 @@ std::vector<Fault> all() {
   std::vector<Fault> out(of_stages().begin(), of_stages().end());
   out.insert(out.end(), of_notes().begin(), of_notes().end());
   return out;
+}
+
+Fault named(std::string_view name) {
+  const std::vector<Fault> faults = all();
+  const auto found = std::ranges::find(faults, name, &Fault::name);
+  if (found == faults.end()) throw std::out_of_range(std::string(name));
+  return *found;
 }
 
 }  // namespace plumbline::faults

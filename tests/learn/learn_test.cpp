@@ -16,10 +16,7 @@ namespace {
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 std::unique_ptr<Renderer> faulted(const std::string& name) {
-  for (const faults::Fault& fault : faults::all()) {
-    if (fault.name == name) return pipeline::make_pipeline(fault.stages());
-  }
-  throw std::invalid_argument(name);
+  return pipeline::make_pipeline(faults::named(name).stages());
 }
 
 TEST(Learn, OurRendererDrawsByTheDialect) {

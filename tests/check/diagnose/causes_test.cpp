@@ -28,10 +28,7 @@ std::string_view name_by_words(const std::string& words) {
 
 // The causes that diagnose() names of a fault.
 std::set<std::string_view> causes_of(const std::string& fault_name, const std::string& scene) {
-  const std::vector<faults::Fault> all = faults::all();
-  const auto fault = std::ranges::find(all, fault_name, &faults::Fault::name);
-  if (fault == all.end()) return {"no such fault"};
-  const auto candidate = pipeline::make_pipeline(fault->stages());
+  const auto candidate = pipeline::make_pipeline(faults::named(fault_name).stages());
   const auto exact = exact::make_exact();
   const Reference references[] = {{"exact", exact.get()}};
   std::set<std::string_view> out;

@@ -18,17 +18,10 @@ namespace {
 
 using Stages = std::vector<Stage>;
 
-faults::Fault fault(std::string_view name) {
-  const std::vector<faults::Fault> all = faults::all();
-  const auto found = std::ranges::find(all, name, &faults::Fault::name);
-  if (found == all.end()) throw std::invalid_argument("no such fault");
-  return *found;
-}
-
 // The pipeline with several faults at once.
 std::unique_ptr<Renderer> with(std::initializer_list<std::string_view> names) {
   pipeline::Stages stages = pipeline::production_stages();
-  for (const std::string_view name : names) fault(name).apply(stages);
+  for (const std::string_view name : names) faults::named(name).apply(stages);
   return pipeline::make_pipeline(stages);
 }
 
@@ -111,7 +104,7 @@ TEST_F(Diagnose, NamesEachPairAndAllAtOnce) {
 TEST_F(Diagnose, NamesWhatAFaultBeforeItHides) {
   scene = suite_scene("interpolation/w_ratio");
   pipeline::Stages stages = pipeline::production_stages();
-  fault("attributes.affine").apply(stages);
+  faults::named("attributes.affine").apply(stages);
   stages.window = [](const pipeline::DrawInput&, const pipeline::Polygon&, std::vector<pipeline::ShadedTriangle>&) {};
   const auto candidate = pipeline::make_pipeline(stages);
   const Diagnosis d = of(*candidate);
@@ -138,7 +131,7 @@ TEST_F(Diagnose, NamesStagesOfAnAntialiasedScenesPassesAndResolve) {
   EXPECT_EQ(of(*two).wrong, (Stages{Stage::coverage, Stage::resolve}));
   // Nothing reaches the frame: resolve shows on repaired samples alone.
   pipeline::Stages stages = pipeline::production_stages();
-  fault("resolve.truncated").apply(stages);
+  faults::named("resolve.truncated").apply(stages);
   stages.coverage = [](const pipeline::WindowTriangle&, const pipeline::PixelBounds&) {
     return std::vector<glm::ivec2>();
   };
@@ -155,7 +148,7 @@ TEST_F(Diagnose, WhatWasMadeOfWrongRecordsIsForgotten) {
 TEST_F(Diagnose, WhatDoesNotFitTheBudgetIsLookedAtAboutTheWorstPixels) {
   scene = suite_scene("interpolation/w_ratio");
   pipeline::Stages stages = pipeline::production_stages();
-  fault("attributes.affine").apply(stages);
+  faults::named("attributes.affine").apply(stages);
   Changed candidate(pipeline::make_pipeline(stages));
   std::size_t pixels = 0;
   candidate.before_capture = [&](const Request& request) {

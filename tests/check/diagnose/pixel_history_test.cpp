@@ -19,9 +19,7 @@ struct HistoryTest : testing::Test {
   std::vector<PixelHistory> renderers(glm::ivec2 pixel = kPixel) { return ask(pixel).samples.at(0).renderers; }
   // Ours with the fault, then exact.
   std::vector<PixelHistory> with_fault(std::string_view name) {
-    const std::vector<faults::Fault> all = faults::all();
-    const auto fault = std::ranges::find(all, name, &faults::Fault::name);
-    const std::unique_ptr<Renderer> faulty = pipeline::make_pipeline(fault->stages());
+    const std::unique_ptr<Renderer> faulty = pipeline::make_pipeline(faults::named(name).stages());
     const Reference references[] = {{"exact", exact.get()}};
     return pixel_history(scene, *faulty, references, kPixel).samples.at(0).renderers;
   }

@@ -43,19 +43,17 @@ TEST(GoldenStages, AFaultInAnyIsNamedByTheGoldensAndByTheReferences) {
   const auto embree = embree::make_embree();
   const auto exact = exact::make_exact();
   const Reference references[] = {{"osmesa", osmesa.get()}, {"embree", embree.get()}, {"exact", exact.get()}};
-  const std::vector<faults::Fault> all = faults::all();
   std::set<Stage> stages;
   for (const StageBreak& b : kStageBreaks) {
-    const auto fault = std::ranges::find(all, b.fault, &faults::Fault::name);
-    ASSERT_NE(fault, all.end()) << b.fault;
+    const faults::Fault fault = faults::named(b.fault);
     const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + std::string(b.scene) + ".json", {});
-    const auto candidate = pipeline::make_pipeline(fault->stages());
+    const auto candidate = pipeline::make_pipeline(fault.stages());
     const GoldenDifference difference = compare_golden(scene, *candidate, goldens);
     EXPECT_EQ(difference.why, "") << b.fault;
     ASSERT_FALSE(difference.stages.empty()) << b.fault;
-    EXPECT_EQ(difference.stages[0], fault->stage) << b.fault;
-    EXPECT_EQ(diagnose(scene, *candidate, references).first, fault->stage) << b.fault;
-    stages.insert(fault->stage);
+    EXPECT_EQ(difference.stages[0], fault.stage) << b.fault;
+    EXPECT_EQ(diagnose(scene, *candidate, references).first, fault.stage) << b.fault;
+    stages.insert(fault.stage);
   }
   EXPECT_EQ(stages.size(), kStageNames.size());
 }

@@ -50,13 +50,8 @@ TEST(Faults, are_as_many_as_the_readme_says) {
 }
 
 matrix::Subject subject_of(std::string_view name) {
-  for (const faults::Fault& fault : faults::all()) {
-    if (fault.name != name) continue;
-    matrix::Subject out{std::string(name), pipeline::production_stages(), {fault.stage}};
-    fault.apply(out.stages);
-    return out;
-  }
-  throw std::out_of_range(std::string(name));
+  const faults::Fault fault = faults::named(name);
+  return {std::string(name), fault.stages(), {fault.stage}};
 }
 
 Scene scene_of(std::string_view file) {

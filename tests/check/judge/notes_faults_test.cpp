@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "check/judge/judge.h"
+#include "faults/faults.h"
 #include "faults/notes.h"
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
@@ -43,18 +44,11 @@ check::SceneVerdict judged(const Scene& scene, const pipeline::Stages& stages) {
   return check::judge(scene, *candidate, references);
 }
 
-const faults::Fault& fault_of(std::string_view name) {
-  for (const faults::Fault& fault : faults::of_notes()) {
-    if (fault.name == name) return fault;
-  }
-  throw std::out_of_range(std::string(name));
-}
-
 /// A scene with the mistake and without, all stages.
 struct Drawn {
   Capture wrong, right;
   Drawn(std::string_view fault, const std::string& scene)
-      : wrong(pipeline::make_pipeline(fault_of(fault).stages())
+      : wrong(pipeline::make_pipeline(faults::named(fault).stages())
                   ->capture(scenes().at(scene), {.records = StageSet::all()})),
         right(pipeline::make_pipeline()->capture(scenes().at(scene), {.records = StageSet::all()})) {}
 };
@@ -145,7 +139,7 @@ TEST(NotesPictures, WhatIsNoMistakeChangesNothing) {
            Row{"notes.000.v_is_w_cross_v", {"gl_solids", "games101_solids", "tinyrenderer_solids"}},
        }) {
     for (const std::string& scene : row.scenes) {
-      const check::SceneVerdict verdict = judged(scenes().at(scene), fault_of(row.fault).stages());
+      const check::SceneVerdict verdict = judged(scenes().at(scene), faults::named(row.fault).stages());
       EXPECT_EQ(check::first_different(verdict), nullptr) << row.fault << ", " << scene;
       const Drawn drawn(row.fault, scene);
       EXPECT_EQ(pixels_apart(drawn.wrong.planes.color, drawn.right.planes.color), 0) << row.fault << ", " << scene;
