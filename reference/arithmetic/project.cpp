@@ -222,6 +222,14 @@ void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, T
   }
 }
 
+/// Displacement of edges whose x is added up from row to row: two roundings a row, of a slope and of a sum that is at
+/// most the window's width, over the rows of the visible part.
+double stepped_edges(const Projected& scene, std::span<const glm::dvec2> outline) {
+  if (scene.conventions.depth_arithmetic != Conventions::DepthArithmetic::in_float_stepped) return 0;
+  const auto [low, high] = std::ranges::minmax(outline, {}, [](const glm::dvec2& p) { return p.y; });
+  return 2 * kFloatRounding * (high.y - low.y + 2) * scene.width;
+}
+
 /// Sets `guarded`: the pieces of a renderer that leaves the sides to the raster.
 void set_guarded(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   bool cut = false;
@@ -271,6 +279,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
     p_window[i] = glm::dvec2(part.v[i]) / w;
     farthest = glm::max(farthest, glm::abs(part.v[i] / w));
   }
+  t.stepped = stepped_edges(scene, std::span(p_window).first(part.count));
   t.reach = displacement(scene, t, farthest, t.w_min);
   set_growth(scene, c, t);
   const std::span corners = std::span(p_window).first(part.count);
@@ -312,7 +321,8 @@ glm::dvec2 corner_displacement(const Projected& scene, const Corner& c) {
 }
 
 double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
-  return scene.snap + glm::length(float_displacement(scene, kFloatRounding * t.roundings * t.size, d, w));
+  const glm::dvec2 stepped(t.stepped, 0);
+  return scene.snap + glm::length(float_displacement(scene, kFloatRounding * t.roundings * t.size, d, w) + stepped);
 }
 
 namespace {

@@ -76,8 +76,9 @@ struct Triangle {
     std::vector<glm::dvec2> outline;  ///< as above
     glm::dvec2 extent{0};             ///< [pixels] twice their corners' largest distance from its middle
   } guarded;
-  double reach = 0;   ///< [pixels] largest displacement of a vertex over its visible part
-  double growth = 1;  ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
+  double stepped = 0;  ///< [pixels] displacement of its edges along x where x is added up from row to row in float
+  double reach = 0;    ///< [pixels] largest displacement of a vertex over its visible part
+  double growth = 1;   ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
 };
 
 /// z_win of a triangle at z_view; the polygon offset is included.

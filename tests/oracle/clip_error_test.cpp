@@ -82,6 +82,38 @@ TEST(ClipError, OfSharesCountsThePiecesOfACutTriangle) {
   EXPECT_EQ(shares_error_in_float(in_double, t, d, wide, 0.01), 0);
 }
 
+// x added up over 60 rows or less, at columns up to 80.
+TEST(ClipError, SteppedEdgesMoveAlongX) {
+  Conventions stepped, in_float;
+  stepped.subpixel_bits = in_float.subpixel_bits = Conventions::kFloat;
+  stepped.depth_arithmetic = Conventions::DepthArithmetic::in_float_stepped;
+  in_float.depth_arithmetic = Conventions::DepthArithmetic::in_float;
+  const Projected by_steps = project(floor_across_the_eye(), stepped), none = project(floor_across_the_eye(), in_float);
+  const Triangle &t = by_steps.triangles[0], &same = none.triangles[0];
+  EXPECT_EQ(same.stepped, 0);
+  EXPECT_GT(t.stepped, 20 * 80 * kFloatRounding);
+  EXPECT_LE(t.stepped, 2 * 63 * 80 * kFloatRounding);
+  EXPECT_GT(t.reach, same.reach);
+}
+
+// A side beside the pixel (30, 20)'s centre, 0.0005 pixel to its right.
+TEST(ClipError, SteppedEdgesLeavePixelsBesideThemOpen) {
+  Scene scene = floor_across_the_eye();
+  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  scene.projection = Orthographic{0, 80, 0, 60, 0, 1};
+  Mesh& mesh = scene.meshes[0];
+  mesh.positions = {{30.5f + 0.0005f, 1, -0.5f}, {70, 30, -0.5f}, {30.5f + 0.0005f, 59, -0.5f}, {0, 0, -0.5f}};
+  mesh.triangles = {{0, 1, 2}};
+  Request request;
+  request.legal = true;
+  request.conventions.subpixel_bits = Conventions::kFloat;
+  request.conventions.depth_arithmetic = Conventions::DepthArithmetic::in_float;
+  EXPECT_EQ(legal_by_boxes(scene, request).at(30, 20).size(), 1u);
+  request.conventions.depth_arithmetic = Conventions::DepthArithmetic::in_float_stepped;
+  EXPECT_EQ(legal_by_boxes(scene, request).at(30, 20).size(), 2u);
+  EXPECT_EQ(legal_by_boxes(scene, request).at(31, 20).size(), 1u);
+}
+
 // A band of 100 x 10 pixels, one of whose corners is cut off by 0.01 pixel: the thin pieces lie along a diagonal and at
 // the cut.
 TEST(Pieces, CountWhereTheyComeNearThePoint) {

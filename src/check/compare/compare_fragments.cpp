@@ -87,6 +87,15 @@ bool has_corner_between_places(const WindowTriangle<double>& t, const Convention
   return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(v.p_win.x) || is_between(v.p_win.y); });
 }
 
+// Displacement of edges along x whose x is added up from row to row in float, if the conventions declare such
+// arithmetic: two roundings a row, of numbers of at most the largest x [pixels].
+double stepped_edges(const WindowTriangle<double>& t, const Conventions& conventions) {
+  if (conventions.depth_arithmetic != Conventions::DepthArithmetic::in_float_stepped) return 0;
+  const auto [low, high] = std::minmax({t.v[0].p_win.y, t.v[1].p_win.y, t.v[2].p_win.y});
+  const double most_x = std::max({std::abs(t.v[0].p_win.x), std::abs(t.v[1].p_win.x), std::abs(t.v[2].p_win.x)});
+  return 2 * u * (high - low + 2) * most_x;
+}
+
 // Fragments; those of samples on edges are ambiguous where open(triangle).
 template <class Open>
 Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
@@ -95,10 +104,11 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
   const int bits = conventions.subpixel_bits;
   const double step = bits == Conventions::kFloat ? 1.0 / kSubpixel : std::exp2(-bits),
                own = conventions.subpixel_rounding == Conventions::Rounding::nearest ? step : 2 * step,
-               most = std::sqrt(2.0) / 2 * (own + 1.0 / kSubpixel);  // [pixel]
+               by_grid = std::sqrt(2.0) / 2 * (own + 1.0 / kSubpixel);  // [pixel]
   const auto on_an_edge = [&](const Covered& c) {
     const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
     const glm::dvec2 p = glm::dvec2(c.x, c.y) + sample;
+    const double most = by_grid + stepped_edges(triangle, conventions);
     for (std::size_t i = 0; triangle.corners == 3 && open(triangle) && i < 3; ++i) {
       const glm::dvec2 a(triangle.v[i].p_win), along = glm::dvec2(triangle.v[(i + 1) % 3].p_win) - a, to = p - a;
       const double length = glm::length(along), beside = std::abs(along.x * to.y - along.y * to.x) / length,

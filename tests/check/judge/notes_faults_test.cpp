@@ -45,9 +45,9 @@ check::SceneVerdict judged(const Scene& scene, const pipeline::Stages& stages) {
 }
 
 /// A scene with the mistake and without, all stages.
-struct Drawn {
+struct DrawnWithFault {
   Capture wrong, right;
-  Drawn(std::string_view fault, const std::string& scene)
+  DrawnWithFault(std::string_view fault, const std::string& scene)
       : wrong(pipeline::make_pipeline(faults::named(fault).stages())
                   ->capture(scenes().at(scene), {.records = StageSet::all()})),
         right(pipeline::make_pipeline()->capture(scenes().at(scene), {.records = StageSet::all()})) {}
@@ -113,7 +113,7 @@ TEST(NotesPictures, PixelsOfAnotherColour) {
            Row{"notes.004.all_edges_in", "gzrender_on_centres", 72},
            Row{"notes.004.z_in_camera_space", "gzrender_receding", 63},
        }) {
-    const Drawn drawn(row.fault, row.scene);
+    const DrawnWithFault drawn(row.fault, row.scene);
     EXPECT_EQ(pixels_apart(drawn.wrong.planes.color, drawn.right.planes.color), row.apart)
         << row.fault << " of " << drawn.right.planes.color.size() << " of " << row.scene;
   }
@@ -141,7 +141,7 @@ TEST(NotesPictures, WhatIsNoMistakeChangesNothing) {
     for (const std::string& scene : row.scenes) {
       const check::SceneVerdict verdict = judged(scenes().at(scene), faults::named(row.fault).stages());
       EXPECT_EQ(check::first_different(verdict), nullptr) << row.fault << ", " << scene;
-      const Drawn drawn(row.fault, scene);
+      const DrawnWithFault drawn(row.fault, scene);
       EXPECT_EQ(pixels_apart(drawn.wrong.planes.color, drawn.right.planes.color), 0) << row.fault << ", " << scene;
       EXPECT_EQ(pixels_apart(drawn.wrong.planes.depth, drawn.right.planes.depth), 0) << row.fault << ", " << scene;
     }
@@ -153,7 +153,7 @@ TEST(NotesPictures, WhatIsNoMistakeChangesNothing) {
 constexpr int kWithin = 15 * 15, kOnSpokes = 8 * 7;
 
 TEST(NotesPictures, TheTieRulePaintsEachPixelOfTheFanOnce) {
-  const Drawn drawn("notes.004.lee_sign", "gzrender_on_centres");
+  const DrawnWithFault drawn("notes.004.lee_sign", "gzrender_on_centres");
   for (const Capture* capture : {&drawn.right, &drawn.wrong}) {
     const Count within = count_of(*capture, 9, 24);
     EXPECT_EQ(within.once, kWithin);
@@ -165,7 +165,7 @@ TEST(NotesPictures, TheTieRulePaintsEachPixelOfTheFanOnce) {
 }
 
 TEST(NotesPictures, StrictEdgesLeaveGapsOnTheSpokes) {
-  const Drawn drawn("notes.000.strict_edges", "gzrender_on_centres");
+  const DrawnWithFault drawn("notes.000.strict_edges", "gzrender_on_centres");
   const Count within = count_of(drawn.wrong, 9, 24);
   EXPECT_EQ(within.never, kOnSpokes + 1);
   EXPECT_EQ(within.once, kWithin - kOnSpokes - 1);
@@ -174,35 +174,35 @@ TEST(NotesPictures, StrictEdgesLeaveGapsOnTheSpokes) {
 }
 
 TEST(NotesPictures, EdgesInArePaintedTwice) {
-  const Count all = count_of(Drawn("notes.004.all_edges_in", "gzrender_on_centres").wrong, 9, 24);
+  const Count all = count_of(DrawnWithFault("notes.004.all_edges_in", "gzrender_on_centres").wrong, 9, 24);
   EXPECT_EQ(all.never, 0);
   EXPECT_EQ(all.more, kOnSpokes + 1);
   EXPECT_EQ(all.most, 8) << "at the hub";
   // Two spokes are horizontal: their pixels are nobody's, but for the hub, which four triangles have on other edges.
-  const Count left_right = count_of(Drawn("notes.004.left_right_edges", "gzrender_on_centres").wrong, 9, 24);
+  const Count left_right = count_of(DrawnWithFault("notes.004.left_right_edges", "gzrender_on_centres").wrong, 9, 24);
   EXPECT_EQ(left_right.never, 2 * 7);
   EXPECT_EQ(left_right.more, kOnSpokes - 2 * 7 + 1);
   EXPECT_EQ(left_right.most, 4);
   // As a tie rule, each pixel is nobody's or one's.
-  const Capture left = Drawn("notes.004.left_edges", "gzrender_on_centres").wrong;
+  const Capture left = DrawnWithFault("notes.004.left_edges", "gzrender_on_centres").wrong;
   EXPECT_EQ(count_of(left, 9, 24).never, 2 * 7 + 1) << "of the hub's triangles, none has it on two left edges";
   EXPECT_EQ(count_of(left, 9, 24).more, 0);
   EXPECT_EQ(pixels_drawn(left), 16 * 16 - 16 - 16) << "a row of the border, and a row through the hub";
 }
 
 TEST(NotesPictures, TheBoxOfTheHubIsOnePixel) {
-  EXPECT_EQ(pixels_drawn(Drawn("notes.000.box", "gzrender_on_centres").wrong), 1);
-  const Drawn solids("notes.000.box", "gzrender_solids");
+  EXPECT_EQ(pixels_drawn(DrawnWithFault("notes.000.box", "gzrender_on_centres").wrong), 1);
+  const DrawnWithFault solids("notes.000.box", "gzrender_solids");
   std::map<std::uint32_t, int> pixels;
   for (const Covered& c : solids.wrong.records.covered) ++pixels[c.triangle];
   for (const auto& [triangle, n] : pixels) EXPECT_LE(n, 4) << triangle;
 }
 
 TEST(NotesPictures, WithAWrongVThePictureIsALine) {
-  const Drawn drawn("notes.000.v_is_w_cross_v", "gzrender_solids");
+  const DrawnWithFault drawn("notes.000.v_is_w_cross_v", "gzrender_solids");
   EXPECT_EQ(pixels_drawn(drawn.right), 10352);
   EXPECT_EQ(pixels_drawn(drawn.wrong), 4) << "slivers that rounding leaves";
-  EXPECT_EQ(pixels_drawn(Drawn("notes.000.v_is_w_cross_v", "gzrender_meeting").wrong), 0);
+  EXPECT_EQ(pixels_drawn(DrawnWithFault("notes.000.v_is_w_cross_v", "gzrender_meeting").wrong), 0);
   // y = -|t x w| x in eye space. Each is rounded four times at most, and the entries once, all terms below 8.
   const glm::dvec3 w = glm::normalize(glm::dvec3(-1.2, -1.5, -4));
   const double slope = -std::sqrt(1 - w.y * w.y);
@@ -215,7 +215,7 @@ TEST(NotesPictures, WithAWrongVThePictureIsALine) {
 TEST(NotesPictures, TheEyeIsElsewhere) {
   for (const auto& [fault, scene, nearer] : {std::tuple{"notes.004.eye_at_c", "gzrender_receding", 1.0},
                                              std::tuple{"notes.002.lookat", "gl_meeting", 3.0}}) {
-    const Drawn drawn(fault, scene);
+    const DrawnWithFault drawn(fault, scene);
     const auto &right = drawn.right.records.vertices, &wrong = drawn.wrong.records.vertices;
     ASSERT_FALSE(right.empty());
     for (std::size_t i = 0; i < right.size(); ++i) {
@@ -237,7 +237,7 @@ constexpr Floor kTiny{kNear, kFar}, kGz{1 + kNear, 1 + kFar};                   
 TEST(NotesPictures, AffineColour) {
   for (const auto& [fault, scene, floor] : {std::tuple{"notes.002.affine_color", "tinyrenderer_receding", kTiny},
                                             std::tuple{"notes.000.affine_color", "gzrender_receding", kGz}}) {
-    const Drawn drawn(fault, scene);
+    const DrawnWithFault drawn(fault, scene);
     float largest = 0;
     for (std::size_t i = 0; i < drawn.right.planes.shaded.size(); ++i) {
       const glm::vec4 apart = glm::abs(drawn.right.planes.shaded.values()[i] - drawn.wrong.planes.shaded.values()[i]);
@@ -255,7 +255,7 @@ TEST(NotesPictures, TheDepthOfALinearZHidesTheWrongSurface) {
   for (const auto& [fault, scene, floor, b, hidden] :
        {std::tuple{"notes.002.sum_z_over_sum_w", "tinyrenderer_receding", kTiny, 0.5, 118},
         std::tuple{"notes.004.z_in_camera_space", "gzrender_receding", kGz, 1.0, 63}}) {
-    const Drawn drawn(fault, scene);
+    const DrawnWithFault drawn(fault, scene);
     double largest = 0;
     for (std::size_t i = 0; i < drawn.right.records.depth.size(); ++i) {
       largest = std::max(largest, std::abs(drawn.right.records.depth[i] - drawn.wrong.records.depth[i]));
@@ -270,22 +270,22 @@ TEST(NotesPictures, TheDepthOfALinearZHidesTheWrongSurface) {
 // Of two walls half a code apart, 0.51 of one by 127.5 / (1 - z/c)^2 a unit of z, the hidden one shows where both have
 // one code: on 0.49 of the light one.
 TEST(NotesPictures, EightBitsOfDepthLoseFights) {
-  const Drawn fights("notes.002.eight_bit_depth", "tinyrenderer_fights");
+  const DrawnWithFault fights("notes.002.eight_bit_depth", "tinyrenderer_fights");
   EXPECT_EQ(pixels_drawn(fights.right), 4458);
   EXPECT_EQ(pixels_apart(fights.right.planes.id, fights.wrong.planes.id), 2191);  // 0.491
   const auto depths = [](const Capture& c) {
     return std::set<double>(c.records.depth.begin(), c.records.depth.end()).size();
   };
-  const Drawn meeting("notes.002.eight_bit_depth", "tinyrenderer_meeting");
+  const DrawnWithFault meeting("notes.002.eight_bit_depth", "tinyrenderer_meeting");
   EXPECT_EQ(depths(meeting.right), 3961);
   EXPECT_EQ(depths(meeting.wrong), 150);
   // The same picture as with a buffer of 8 bits.
-  const Drawn own("notes.002.eight_bit_depth", "tinyrenderer_eight_bits");
+  const DrawnWithFault own("notes.002.eight_bit_depth", "tinyrenderer_eight_bits");
   EXPECT_EQ(pixels_apart(meeting.wrong.planes.id, own.right.planes.id), 0);
 }
 
 TEST(NotesPictures, WholeCentresAreHalfAPixelOff) {
-  const Drawn drawn("notes.004.whole_centres", "gl_on_centres");
+  const DrawnWithFault drawn("notes.004.whole_centres", "gl_on_centres");
   const auto &right = drawn.right.records.triangles, &wrong = drawn.wrong.records.triangles;
   ASSERT_EQ(right.size(), 8);
   ASSERT_EQ(wrong.size(), 8);
@@ -298,7 +298,7 @@ TEST(NotesPictures, WholeCentresAreHalfAPixelOff) {
 
 // No line passes half way between two pixels, so that no tie is among them.
 TEST(NotesPictures, TheIncrementalLineDriftsWithItsLength) {
-  const Drawn drawn("notes.004.incremental_line", "gl_long_lines");
+  const DrawnWithFault drawn("notes.004.incremental_line", "gl_long_lines");
   const auto pixels = [](const Capture& capture) {
     std::map<std::pair<std::uint32_t, int>, int> out;  // y of each line at each x
     for (const Covered& c : capture.records.covered) out[{c.triangle, c.x}] = c.y;
@@ -319,7 +319,7 @@ TEST(NotesPictures, TheIncrementalLineDriftsWithItsLength) {
 
 // The floor (0 and 1), the triangle on it (2) and three of the strewn ones.
 TEST(NotesPictures, WhatCrossesTheViewPlaneIsGone) {
-  const Drawn drawn("notes.004.delete_behind_view_plane", "gzrender_cut");
+  const DrawnWithFault drawn("notes.004.delete_behind_view_plane", "gzrender_cut");
   const auto primitives = [](const Capture& capture) {
     std::set<std::uint32_t> out;
     for (const ClipPolygon& polygon : capture.records.polygons.polygons) out.insert(polygon.primitive);
@@ -341,10 +341,10 @@ TEST(NotesPictures, ThePlateWithItsBackToTheLight) {
     const Vec4<double>& is = capture.records.lit.back().color;
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(is[i], std::max(color[i], 0.0), 2e-7) << i;  // a few ULP of float
   };
-  const Drawn unclamped("notes.000.no_clamp_of_n_l", "gzrender_backlit");
+  const DrawnWithFault unclamped("notes.000.no_clamp_of_n_l", "gzrender_backlit");
   expect_near(unclamped.right, 0.02 + 0.9 * n_dot_blue * blue);
   expect_near(unclamped.wrong, 0.02 + 0.9 * (n_dot_blue * blue + n_dot_warm * warm));
-  expect_near(Drawn("notes.000.flipped_normals", "gzrender_backlit").wrong, 0.02 - 0.9 * n_dot_warm * warm);
+  expect_near(DrawnWithFault("notes.000.flipped_normals", "gzrender_backlit").wrong, 0.02 - 0.9 * n_dot_warm * warm);
 }
 
 }  // namespace
