@@ -35,7 +35,7 @@ class EmbreeRenderer final : public Renderer {
     if (antialiased(of_dialect)) return math::capture_resolved(*this, of_dialect, request);
     const SceneByConventions by_conventions(of_dialect, request.conventions);
     const Scene& scene = *by_conventions;
-    if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
+    if (may_draw(scene, Topology::lines) || may_draw(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
     }
     if (request.planes == WantedPlanes::none && !request.legal && request.pixels.empty()) return empty_capture(scene);

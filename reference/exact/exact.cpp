@@ -210,7 +210,7 @@ Capture Exact::capture(const Scene& scene, const Request& request) {
   const std::size_t fragments = selected_fragments(scene, selection, window.triangles);
   require_budget(scene, plane_bytes(scene) + geometry_bytes(out) + fragments * selection.bytes_per_fragment(),
                  request.memory_budget);
-  if (request.legal && !draws(scene, Topology::lines) && !draws(scene, Topology::points))
+  if (request.legal && !may_draw(scene, Topology::lines) && !may_draw(scene, Topology::points))
     out.legal = math::legal_by_boxes(scene, request);
   if (request.planes == WantedPlanes::none && !selection.fragments()) return out;
   selection.reserve(fragments, records);

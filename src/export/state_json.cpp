@@ -68,7 +68,7 @@ Json frame_json(const Scene& scene) {
           {"clear_stencil", f.clear_stencil},
           {"rows_from_top", rows_from_top(scene.dialect)},
           {"depth_clamp", scene.depth_clamp},
-          {"sample", vector(sample_place(f))}};
+          {"sample", vector(sample_offset(f))}};
 }
 
 Json light_model_json(const LightModel& model) {

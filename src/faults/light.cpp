@@ -128,8 +128,8 @@ pipeline::Shaded no_color_sum(const pipeline::Surface& surface, bool front,
 
 // Light by the unnormalised interpolated normal. Surfaces with fog, two-sided light, a separate specular colour or
 // colour material stay right.
-pipeline::Shaded short_normals(const pipeline::Surface& surface, bool front,
-                               const pipeline::SurfaceAttributes<float>& a) {
+pipeline::Shaded unnormalised_normals(const pipeline::Surface& surface, bool front,
+                                      const pipeline::SurfaceAttributes<float>& a) {
   const LightModel& model = surface.scene->light_model;
   const bool simple = model.sides != LightModel::Sides::two && !model.separate_specular && !surface.draw->fog;
   if (!surface.light || surface.light->by_color || !simple) {
@@ -183,7 +183,7 @@ constexpr std::array kFaults = {
     Fault{"shade.no_color_sum", "the separate specular colour is not added", Stage::shade,
           put<&Stages::shade, no_color_sum>},
     Fault{"shade.not_renormalised", "interpolated normals are not brought back to unit length", Stage::shade,
-          put<&Stages::shade, short_normals>},
+          put<&Stages::shade, unnormalised_normals>},
 };
 
 }  // namespace

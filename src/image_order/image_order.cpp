@@ -147,7 +147,7 @@ class ImageOrderRenderer final : public Renderer {
 
   Capture capture(const Scene& scene, const Request& request) override {
     if (antialiased(scene)) throw Unsupported("it finds what is visible, not its colour");
-    if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
+    if (may_draw(scene, Topology::lines) || may_draw(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
     }
     for (const Draw& draw : scene.draws) {

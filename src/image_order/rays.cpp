@@ -13,7 +13,7 @@ View::View(const Scene& scene)
     : eye_(scene.camera.eye),
       parallel_(false),
       frame_(scene.frame.width, scene.frame.height),
-      place_(0.5 + glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel) - scene.frame.pass.shift) {
+      place_(0.5 + glm::dvec2(sample_offset(scene.frame)) / static_cast<double>(kSubpixel) - scene.frame.pass.shift) {
   forward_ = glm::normalize(scene.camera.center - eye_);
   right_ = glm::normalize(glm::cross(forward_, scene.camera.up));
   up_ = glm::cross(right_, forward_);

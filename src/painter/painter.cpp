@@ -298,7 +298,7 @@ Frame& Painter::draw(const Scene& scene) {
   pass_of(scene, 0, pass);
   std::vector<Frame>& passes = memory_->passes.of(pass.frame, pass_count(scene.frame.antialias));
   for (std::size_t i = 0; i < passes.size(); ++i) {
-    pass.frame.pass = own_of_pass(scene.frame, i);
+    pass.frame.pass = state_of_pass(scene.frame, i);
     memory_->draw_pass(pass, passes[i]);
   }
   resolve({}, scene.frame, passes, frame);

@@ -23,7 +23,7 @@ Frame::Frame(const FrameFormat& format) {
 }
 
 Formats formats_of(const FrameFormat& frame) {
-  return {depth_scale(frame.depth), static_cast<float>(color_scale(frame.color)), sample_place(frame)};
+  return {depth_scale(frame.depth), static_cast<float>(color_scale(frame.color)), sample_offset(frame)};
 }
 
 ClearPixel clear_pixel(const FrameFormat& frame) {

@@ -7,11 +7,11 @@
 namespace plumbline::pipeline {
 
 void require_drawable(std::size_t triangles, const FrameFormat& format) {
-  constexpr std::size_t kMostTriangles = std::size_t{1} << 24;
+  constexpr std::size_t kMostPrimitives = std::size_t{1} << 24;
   constexpr int kLargestFrame = 16384;
-  if (triangles > kMostTriangles)
+  if (triangles > kMostPrimitives)
     throw std::invalid_argument(
-        fmt::format("a program of {} triangles: expected at most {}", triangles, kMostTriangles));
+        fmt::format("a program of {} triangles: expected at most {}", triangles, kMostPrimitives));
   if (format.antialias.kind != Antialias::Kind::none)
     throw std::invalid_argument("a program's frame: expected one sample a pixel");
   const auto fits = [](int side) { return side >= 1 && side <= kLargestFrame; };

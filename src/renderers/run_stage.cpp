@@ -107,7 +107,7 @@ class OneStage {
 
   void run_coverage() {
     const FrameFormat& frame = scene_.frame;
-    const glm::ivec2 sample = stages_.sample_offsets(sample_place(frame)).coverage;
+    const glm::ivec2 sample = stages_.sample_offsets(sample_offset(frame)).coverage;
     const SurfaceAttributes<float> nothing{};
     for (std::uint32_t i = 0; i < records_.triangles.size(); ++i) {
       const ShadedTriangle triangle = triangle_at(records_, i);

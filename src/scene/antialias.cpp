@@ -12,7 +12,7 @@ std::size_t pass_count(const Antialias& antialias) {
   return 1;
 }
 
-Pass own_of_pass(const FrameFormat& frame, std::size_t i) {
+Pass state_of_pass(const FrameFormat& frame, std::size_t i) {
   Pass own = frame.pass;
   if (frame.antialias.kind == Antialias::Kind::multisample) own.sample = static_cast<int>(i);
   if (frame.antialias.kind == Antialias::Kind::taps) own.shift = {-kTaps[i].dx, -kTaps[i].dy};
@@ -23,7 +23,7 @@ void pass_of(const Scene& scene, std::size_t i, Scene& pass) {
   const Antialias antialias = scene.frame.antialias;
   pass = scene;
   pass.frame.antialias = {};
-  pass.frame.pass = own_of_pass(scene.frame, i);
+  pass.frame.pass = state_of_pass(scene.frame, i);
   if (antialias.kind != Antialias::Kind::none) pass.path.clear();
   if (antialias.kind != Antialias::Kind::supersample) return;
   const int n = antialias.factor;

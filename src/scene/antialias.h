@@ -36,7 +36,7 @@ std::size_t pass_count(const Antialias& antialias);
 /// Pass number i of passes_of() into `pass`, whose memory is reused.
 void pass_of(const Scene& scene, std::size_t i, Scene& pass);
 /// FrameFormat::pass of pass number i.
-Pass own_of_pass(const FrameFormat& frame, std::size_t i);
+Pass state_of_pass(const FrameFormat& frame, std::size_t i);
 
 /// One sample of a pixel (x, y) of the frame: pixel (x, y) * Antialias::factor + offset of pass number `pass`.
 struct PixelSample {
@@ -50,7 +50,7 @@ using PixelSamples = FixedVector<PixelSample, 64>;
 PixelSamples samples_of(const Antialias& antialias);
 
 /// Offset from the pixel's centre to the pass' sample of coverage and depth [1/256 pixel].
-inline glm::ivec2 sample_place(const FrameFormat& frame) {
+inline glm::ivec2 sample_offset(const FrameFormat& frame) {
   return frame.pass.sample ? kSamples[static_cast<std::size_t>(*frame.pass.sample)] : glm::ivec2(0);
 }
 

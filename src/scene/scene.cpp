@@ -5,7 +5,7 @@
 
 namespace plumbline {
 
-bool draws(const Scene& scene, Topology topology) {
+bool may_draw(const Scene& scene, Topology topology) {
   constexpr PolygonMode kModes[] = {PolygonMode::fill, PolygonMode::line, PolygonMode::point};
   const PolygonMode mode = kModes[static_cast<std::size_t>(topology)];
   return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {

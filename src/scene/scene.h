@@ -311,7 +311,7 @@ struct LitPart {
 Material lit_material(const Scene& scene, const Draw& draw, LitPart part, const glm::vec4* color);
 
 /// True: a draw may make primitives of that topology, by its mesh or by a polygon mode.
-bool draws(const Scene& scene, Topology topology);
+bool may_draw(const Scene& scene, Topology topology);
 /// True: a pixel's colour is the last drawn fragment's: no draw has blending, a logic op or a colour mask.
 inline bool colors_replace(const Scene& scene) {
   return std::all_of(scene.draws.begin(), scene.draws.end(),

@@ -46,8 +46,8 @@ using ExportFolder = TestFolder;
 
 // A scene of many triangles shows no more than one of some thousands, and takes seconds.
 bool is_large(const Scene& scene) {
-  constexpr std::size_t kMostTriangles = 400'000;
-  return std::ranges::any_of(scene.meshes, [](const Mesh& m) { return m.triangles.size() > kMostTriangles; });
+  constexpr std::size_t kMostPrimitives = 400'000;
+  return std::ranges::any_of(scene.meshes, [](const Mesh& m) { return m.triangles.size() > kMostPrimitives; });
 }
 
 TEST_P(ExportOf, EverySceneOfTheGroupDrawsTheSameBits) {

@@ -47,8 +47,8 @@ struct PassThrough {
 /// The state that all draws of the scene share; none: they differ, or a program cannot draw the scene.
 std::optional<ProgramState> common_state(const Scene& scene) {
   // Programs have triangles, one colour and no blending.
-  if (scene.draws.empty() || !carried(scene).empty() || !colors_replace(scene) || draws(scene, Topology::lines) ||
-      draws(scene, Topology::points)) {
+  if (scene.draws.empty() || !carried(scene).empty() || !colors_replace(scene) || may_draw(scene, Topology::lines) ||
+      may_draw(scene, Topology::points)) {
     return std::nullopt;
   }
   const Draw& first = scene.draws.front();

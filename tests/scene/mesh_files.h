@@ -17,7 +17,7 @@
 namespace plumbline {
 
 inline std::vector<MeshPart> load_parts(const std::filesystem::path& file) {
-  return load_mesh(file, AssetFolders({file.parent_path()}), kMostTriangles);
+  return load_mesh(file, AssetFolders({file.parent_path()}), kMostPrimitives);
 }
 /// Reads a file that must come to one part: of one material at most.
 inline Mesh load_one(const std::filesystem::path& file) {

@@ -40,7 +40,7 @@ bool all_on_edges(const Evidence& e) {
     const WindowTriangle<double>& t = e.candidate.records.triangles.at(d.triangle);
     if (t.corners != 3) return false;
     for (const auto* pixels : {&d.missing, &d.extra}) {
-      if (!std::ranges::all_of(*pixels, [&](glm::ivec2 p) { return on_an_edge(t, p, sample_place(e.scene.frame)); }))
+      if (!std::ranges::all_of(*pixels, [&](glm::ivec2 p) { return on_an_edge(t, p, sample_offset(e.scene.frame)); }))
         return false;
     }
     missing = missing || !d.missing.empty();
@@ -63,7 +63,7 @@ bool box_one_short(const Evidence& e) {
     }
     if (!std::ranges::all_of(d.missing, [&](glm::ivec2 p) { return p.x == last.x || p.y == last.y; })) return false;
     inner += std::ranges::any_of(d.missing, [&](glm::ivec2 p) {
-      return !on_an_edge(e.candidate.records.triangles.at(d.triangle), p, sample_place(e.scene.frame));
+      return !on_an_edge(e.candidate.records.triangles.at(d.triangle), p, sample_offset(e.scene.frame));
     });
   }
   return inner > 0 && has_other_pixels;  // or it may be the tie rule
@@ -85,7 +85,7 @@ bool small_dropped(const Evidence& e) {
   std::size_t dropped = 0;
   for (const CoverageDifference& d : coverage_differences(e)) {
     const WindowTriangle<double>& t = triangles.at(d.triangle);
-    const auto is_tie = [&](glm::ivec2 p) { return on_an_edge(t, p, sample_place(e.scene.frame)); };
+    const auto is_tie = [&](glm::ivec2 p) { return on_an_edge(t, p, sample_offset(e.scene.frame)); };
     if (is_small(t) && d.both.empty() && d.extra.empty()) {
       ++dropped;
     } else if (!std::ranges::all_of(d.missing, is_tie) || !std::ranges::all_of(d.extra, is_tie)) {

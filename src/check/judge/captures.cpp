@@ -12,7 +12,7 @@ namespace {
 Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal, const Conventions& conventions) {
   const RendererInfo info = renderer.info();
   Request request{.records = kGeometryStages, .legal = legal && info.legal, .conventions = conventions};
-  if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // for compare_covered_lines()
+  if (may_draw(scene, Topology::lines)) request.records.add(Stage::coverage);  // for compare_covered_lines()
   if (is_referee(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
   try {
     return renderer.capture(scene, request);

@@ -158,7 +158,7 @@ void compare_coverage_stage(const SceneJudgement& c, const Capture& made, const 
   if (c.foreign && are_counted && knows_ties(c.scene, c.conventions))
     return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions));
   if (covers_otherwise(c) && are_counted) {
-    const glm::dvec2 sample = 0.5 + glm::dvec2(sample_place(c.scene.frame)) / double{kSubpixel};
+    const glm::dvec2 sample = 0.5 + glm::dvec2(sample_offset(c.scene.frame)) / double{kSubpixel};
     return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample));
   }
   Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());

@@ -58,7 +58,7 @@ bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
 }
 
 void compare_covers(const SceneJudgement& c, const Capture& mine, const Capture& theirs, const JudgeId& name) {
-  if (draws(c.scene, Topology::lines)) {
+  if (may_draw(c.scene, Topology::lines)) {
     const Tolerance& row = tolerance(c.profile, Stage::coverage, "lines");
     c.add(name, Stage::coverage, compare_covered_lines(c.scene, mine, theirs, row.factor), &row);
   } else {
@@ -121,7 +121,7 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
       return add(
           compare_window_equal(mine, theirs.records, factor_of(stage), turned_outlines(c.scene, mine, theirs.records)));
     case Stage::coverage:
-      if (draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate)) return skip(kOverBudget);
+      if (may_draw(c.scene, Topology::lines) && lacks_fragment_records(c.candidate)) return skip(kOverBudget);
       return compare_covers(c, c.candidate, theirs, name);
     case Stage::depth:
       if (!draws_depth_codes(c.scene, theirs)) return skip(no_such_depth(c.scene.frame));
@@ -161,7 +161,7 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
 // judge turned outlines. False: nothing was compared, because the stage comes before coverage, no outline is turned, or
 // the coverage of lines is unknown.
 bool compare_without_turned(const SceneJudgement& c, const Capture& theirs, Stage stage, const JudgeId& name) {
-  const bool lacks_line_coverage = draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate);
+  const bool lacks_line_coverage = may_draw(c.scene, Topology::lines) && lacks_fragment_records(c.candidate);
   if (stage < Stage::coverage || c.referee == nullptr || lacks_line_coverage) return false;
   const std::vector<std::uint32_t> turned = turned_outlines(c.scene, c.candidate.records, theirs.records);
   if (turned.empty()) return false;

@@ -22,7 +22,7 @@ inline bool lacks_fragment_records(const Capture& c) {
 }
 
 inline bool draws_lines_or_points(const Scene& scene) {
-  return draws(scene, Topology::lines) || draws(scene, Topology::points);
+  return may_draw(scene, Topology::lines) || may_draw(scene, Topology::points);
 }
 
 /// Whether `planes` holds the plane that an oracle's legal answers of the stage are compared with.

@@ -57,7 +57,7 @@ Hash hash_of_capture(const Capture& capture) {
 bool may_be_made_again(const Request& request) { return !request.legal && request.conventions == Conventions{}; }
 
 bool is_pass(const Scene& scene, const Scene& of, std::size_t i) {
-  const Pass pass = own_of_pass(of.frame, i);
+  const Pass pass = state_of_pass(of.frame, i);
   return antialiased(of) && !antialiased(scene) && scene.name == of.name && scene.frame.pass.shift == pass.shift &&
          scene.frame.pass.sample == pass.sample;
 }

@@ -18,9 +18,9 @@ constexpr int kMostCells = 2048;  // along one side of a generator's mesh
 
 int read_count(const JsonNode& node, int least, int most) { return static_cast<int>(node.integer(least, most)); }
 
-void allow_triangles(const JsonNode& node, std::size_t count, std::size_t most) {
+void require_triangles_left(const JsonNode& node, std::size_t count, std::size_t most) {
   if (count <= most) return;
-  node.refuse(fmt::format("at most {} triangles in all, of which {} are left", kMostTriangles, most),
+  node.refuse(fmt::format("at most {} triangles in all, of which {} are left", kMostPrimitives, most),
               fmt::format("{} more", count));
 }
 
@@ -162,7 +162,7 @@ Mesh read_quad(const JsonNode& node) {
 Mesh read_soup(const JsonNode& node, std::size_t most_triangles) {
   node.only({"triangles", "seed", "extent", "size"});
   const int triangles = read_count(node["triangles"], 1, 4'000'000);
-  allow_triangles(node, static_cast<std::size_t>(triangles), most_triangles);
+  require_triangles_left(node, static_cast<std::size_t>(triangles), most_triangles);
   return make_soup(triangles, static_cast<std::uint64_t>(node["seed"].integer(0, INT64_MAX)),
                    node["extent"].number(0, kLargestCoordinate / 2), node["size"].number(0, kLargestCoordinate / 2));
 }
@@ -170,7 +170,7 @@ Mesh read_soup(const JsonNode& node, std::size_t most_triangles) {
 Mesh read_grid(const JsonNode& node, std::size_t most_triangles) {
   node.only({"columns", "rows"});
   const int columns = read_count(node["columns"], 1, kMostCells), rows = read_count(node["rows"], 1, kMostCells);
-  allow_triangles(node, 2u * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), most_triangles);
+  require_triangles_left(node, 2u * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), most_triangles);
   return make_grid(columns, rows);
 }
 
@@ -178,14 +178,15 @@ Mesh read_grid(const JsonNode& node, std::size_t most_triangles) {
 Mesh read_sphere(const JsonNode& node, Mesh (*make)(int slices, int stacks), std::size_t most_triangles) {
   node.only({"slices", "stacks"});
   const int slices = read_count(node["slices"], 3, kMostCells), stacks = read_count(node["stacks"], 2, kMostCells);
-  allow_triangles(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(stacks - 1), most_triangles);
+  require_triangles_left(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(stacks - 1),
+                         most_triangles);
   return make(slices, stacks);
 }
 
 Mesh read_icosphere(const JsonNode& node, std::size_t most_triangles) {
   node.only({"subdivisions"});
   const int subdivisions = read_count(node["subdivisions"], 0, 8);
-  allow_triangles(node, 20u << 2 * subdivisions, most_triangles);
+  require_triangles_left(node, 20u << 2 * subdivisions, most_triangles);
   return make_icosphere(subdivisions);
 }
 
@@ -201,8 +202,8 @@ Mesh read_torus_knot(const JsonNode& node, std::size_t most_triangles) {
   if (std::gcd(knot.p, knot.q) != 1) {
     node.refuse("p and q without a common divisor", fmt::format("{} and {}", knot.p, knot.q));
   }
-  allow_triangles(node, 2u * static_cast<std::size_t>(knot.segments) * static_cast<std::size_t>(knot.sides),
-                  most_triangles);
+  require_triangles_left(node, 2u * static_cast<std::size_t>(knot.segments) * static_cast<std::size_t>(knot.sides),
+                         most_triangles);
   return make_torus_knot(knot);
 }
 
@@ -218,8 +219,8 @@ Mesh read_revolution(const JsonNode& node, std::size_t most_triangles) {
   if (control.size() % 3 != 1) profile.refuse("3 n + 1 points: cubic Bézier curves, neighbours sharing one");
   const int steps = read_count(node["steps"], 1, kMostCells), slices = read_count(node["slices"], 3, kMostCells);
   const std::size_t curves = control.size() / 3;
-  allow_triangles(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(steps) * curves,
-                  most_triangles);
+  require_triangles_left(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(steps) * curves,
+                         most_triangles);
   const std::vector<glm::dvec2> points = bezier_profile(control, steps);
   if (std::any_of(points.begin() + 1, points.end() - 1, [](const glm::dvec2& p) { return p.x < kSmallestLength; })) {
     profile.refuse("radii over 0 between the profile's ends", "one of 0");

@@ -41,7 +41,7 @@ Antialias read_antialias(const JsonNode& node, const FrameFormat& frame) {
 void require_drawable(const JsonNode& frame, const Scene& scene) {
   const Antialias::Kind kind = scene.frame.antialias.kind;
   if (kind != Antialias::Kind::multisample && kind != Antialias::Kind::supersample) return;
-  if (!draws(scene, Topology::lines) && !draws(scene, Topology::points)) return;
+  if (!may_draw(scene, Topology::lines) && !may_draw(scene, Topology::points)) return;
   frame["antialias"].refuse("taps, where a scene has lines or points", "another kind");
 }
 
@@ -183,7 +183,7 @@ struct KnownMesh {
 void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFolders& folders, Scene& scene) {
   constexpr std::size_t kMostDraws = 4096;
   std::vector<KnownMesh> known;
-  std::size_t left = kMostTriangles;
+  std::size_t left = kMostPrimitives;
   for (const JsonNode& n : node.elements(1, kMostDraws)) {
     const DrawState state = read_draw(n, defaults, scene.textures);
     if (state.draw.stencil && scene.frame.stencil == StencilFormat::none) {
@@ -205,7 +205,7 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
       draw.mesh = same->first + i;
       if (!state.has_material && same->materials[i]) draw.material = *same->materials[i];
       const std::size_t triangles = scene.meshes[draw.mesh].triangles.size();
-      if (triangles > left) n.refuse(fmt::format("at most {} triangles in all", kMostTriangles), "more");
+      if (triangles > left) n.refuse(fmt::format("at most {} triangles in all", kMostPrimitives), "more");
       left -= triangles;
       if (draw.texture && scene.meshes[draw.mesh].texcoords.empty()) {
         mesh.refuse("a mesh with texture coordinates, as the draw has a texture", "one without");

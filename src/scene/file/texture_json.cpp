@@ -148,7 +148,7 @@ Image read_image(const JsonNode& node, const AssetFolders& folders, std::size_t 
   return read_noise(n, most_texels);
 }
 
-TextureFormat format_of_file(int channels) {
+TextureFormat format_of_channels(int channels) {
   constexpr TextureFormat kFormats[] = {TextureFormat::luminance, TextureFormat::luminance_alpha, TextureFormat::rgb,
                                         TextureFormat::rgba};
   return kFormats[channels - 1];
@@ -189,7 +189,7 @@ std::pair<Texture, Image> read_texture(const JsonNode& node, const AssetFolders&
   Texture texture;
   texture.sampler = read_sampler(node);
   Image image = read_image(node["image"], folders, most_texels);
-  texture.format = format_of_file(image.channels);
+  texture.format = format_of_channels(image.channels);
   if (const auto n = node.find("format")) {
     texture.format = n->choice<TextureFormat>(kNamesOf<TextureFormat>);
   }

@@ -14,7 +14,7 @@ inline constexpr double kLargestCoordinate = 1e6;
 /// Least length of a vector, and least scale: their reciprocals are harmless in float.
 inline constexpr double kSmallestLength = 1e-6;
 /// Most primitives of a scene, so that a primitive's number is exact in float.
-inline constexpr std::size_t kMostTriangles = 1u << 24;
+inline constexpr std::size_t kMostPrimitives = 1u << 24;
 
 /// Three numbers within +-kLargestCoordinate. Throws JsonError.
 glm::dvec3 read_point(const JsonNode& node);

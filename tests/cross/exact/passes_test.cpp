@@ -39,7 +39,7 @@ void expect_same_passes(const std::vector<Scene>& a, const std::vector<Scene>& b
     EXPECT_EQ(a[i].frame.height, b[i].frame.height);
     EXPECT_EQ(a[i].frame.pass.shift, b[i].frame.pass.shift);
     EXPECT_EQ(a[i].frame.pass.sample, b[i].frame.pass.sample);
-    EXPECT_EQ(math::sample_offset(a[i].frame), glm::dvec2(sample_place(b[i].frame)) / static_cast<double>(kSubpixel));
+    EXPECT_EQ(math::sample_offset(a[i].frame), glm::dvec2(sample_offset(b[i].frame)) / static_cast<double>(kSubpixel));
     EXPECT_FALSE(b[i].draws[0].scissor);
     const Scissor &s = *a[i].draws[1].scissor, &t = *b[i].draws[1].scissor;
     EXPECT_EQ(glm::ivec4(s.x, s.y, s.width, s.height), glm::ivec4(t.x, t.y, t.width, t.height));

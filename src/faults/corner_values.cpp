@@ -36,7 +36,7 @@ constexpr Fault in_order(std::string_view name, std::string_view changes) {
   return {name, changes, Stage::window, put<&pipeline::Stages::window, values_of<corners...>>};
 }
 
-constexpr std::array kBarycentric = {
+constexpr std::array kCornerValues = {
     in_order<0, 2, 1>("window.values_swapped", "two corners have each other's depth and attributes"),
     in_order<2, 1, 0>("window.first_values_swapped", "the first two corners have each other's depth and attributes"),
     in_order<1, 0, 2>("window.last_values_swapped", "the last two corners have each other's depth and attributes"),
@@ -46,6 +46,6 @@ constexpr std::array kBarycentric = {
 
 }  // namespace
 
-std::span<const Fault> of_barycentric() { return kBarycentric; }
+std::span<const Fault> of_corner_values() { return kCornerValues; }
 
 }  // namespace plumbline::faults
