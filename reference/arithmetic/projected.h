@@ -67,8 +67,7 @@ struct Triangle {
   OffsetBounds offset;              ///< the polygon offset
   double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
   double altitude = 0;              ///< [pixels] least altitude of all pieces for which a renderer may set up a plane
-  /// Of a cut triangle: corners of its visible part, of which any three may be a piece's [pixels from the window's
-  /// middle].
+  /// Corners of a cut triangle's visible part, any three of which may be a piece's [pixels from the window's middle].
   std::vector<glm::dvec2> outline;
   /// Pieces cut at the near and far planes alone, where these may cut: corners may lie far outside the window.
   struct Guarded {

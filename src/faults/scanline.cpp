@@ -33,7 +33,7 @@ double x_not_advanced(glm::dvec2 lower, glm::dvec2 upper, int row) {
   return x_at_row(lower, upper, row) + (begin - first * kSubpixel) * slope;
 }
 
-// What is left out: the row below the middle corner, or the one above it; the first or the last pixel of each span.
+// Part that is left out: the row below the middle corner, or the one above it; the first or the last pixel of each span.
 enum class Lost { none, below_middle, above_middle, first_pixels, last_pixels };
 
 bool is_lost(Lost lost, const std::array<double, 3>& corners_y, int row) {
@@ -68,7 +68,7 @@ PixelList by_spans(const Triangle& t, const PixelBounds& box) {
   return out;
 }
 
-// How far a pixel's centre, or row of centres, lies beyond `at` [pixels].
+// Distance from `at` on to the next centre of a pixel, or of a row [pixels].
 double ahead_of(double at) { return std::ceil(at - 0.5) + 0.5 - at; }
 
 // Edge of a triangle that begins the span of a pixel's row. Edge i lies opposite corner i.
@@ -103,7 +103,7 @@ Pixels<float> span_not_advanced(const Setup& s, const Pixels<float>& p) {
   return start.edge < 3 ? moved(p, -ahead_of(start.x), 0) : p;
 }
 
-// Likewise where edges begin with the values of their lower, or upper, corner.
+// Place whose values a pixel has where edges begin with those of their lower, or upper, corner.
 template <From from>
 Pixels<float> edge_not_advanced(const Setup& s, const Pixels<float>& p) {
   const SpanStart start = span_start(s, p);
