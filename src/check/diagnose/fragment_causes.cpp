@@ -130,6 +130,8 @@ constexpr std::array kFragmentCauses = {
         S::visibility, "visibility.less_equal", "an equal depth passes where only a smaller one may"),
     given<compared_otherwise<DepthFunc::less_equal, DepthFunc::less>>(
         S::visibility, "visibility.less", "an equal depth is rejected where it should pass"),
+    given<[](Scene& s) { s.frame.clear_depth = 1; }>(S::visibility, "visibility.clear_depth_ignored",
+                                                     "depths are cleared to 1, whatever the clear depth"),
     given<[](Draw& d) { d.depth_func = turned(d.depth_func); }>(
         S::visibility, "visibility.depth_reversed", "the depth test is the other way round: the farther one wins"),
     given<[](Scene& s) {

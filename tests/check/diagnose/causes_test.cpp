@@ -152,6 +152,7 @@ TEST(Causes, EachThatCanBeMadeIsTold) {
                            "light/separate_specular",
                            "depth/ties",
                            "depth/functions",
+                           "depth/on_clear",
                            "light/emission",
                            "light/two_sided_gouraud",
                            "light/local_viewer",
