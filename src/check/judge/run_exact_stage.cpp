@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "capture/seen_as.h"
 #include "check/bounds/open_pixels.h"
@@ -16,6 +19,7 @@
 #include "check/polygons/compare_polygons.h"
 #include "check/polygons/cut_at_sides.h"
 #include "scene/antialias.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::check {
 
@@ -123,8 +127,8 @@ void compare_visible(const SceneJudgement& c, const Capture& made, const JudgeId
   c.add(name, Stage::visibility, std::move(m), nullptr, c.note_of_winners());
 }
 
-// Exact's planes. Where the scene's clear depth lies half way between two codes, the background has the code that a
-// foreign candidate took.
+// Exact's planes. Where the scene's clear depth lies half way between two codes, the background, and what lies beneath
+// winners that write no depth, have the code that a foreign candidate took.
 Planes with_either_clear_depth(const SceneJudgement& c, const Planes& made) {
   Planes out = made;
   const Planes& mine = c.candidate.planes;
@@ -132,14 +136,18 @@ Planes with_either_clear_depth(const SceneJudgement& c, const Planes& made) {
   const bool is_half = scale > 0 && std::abs(code - std::floor(code) - 0.5) < 0x1p-20;
   const bool fits = mine.id.size() == out.depth.size() && mine.depth.size() == out.depth.size();
   if (!c.foreign || !is_half || !fits) return out;
-  const auto& winners = mine.id.values();
-  const auto first = std::ranges::find(winners, kBackground);
-  if (first == winners.end()) return out;
-  const double z = mine.depth.values()[static_cast<std::size_t>(first - winners.begin())];  // all are cleared to one
-  if (z != std::floor(code) / scale && z != std::ceil(code) / scale) return out;
-  for (std::size_t i = 0; i < winners.size(); ++i) {
-    if (winners[i] == kBackground) out.depth.values()[i] = z;
+  const DrawIndex draws(c.scene);
+  const auto is_either = [&](double z) { return z == std::floor(code) / scale || z == std::ceil(code) / scale; };
+  std::vector<std::size_t> cleared;  // pixels
+  for (std::size_t i = 0; i < mine.id.size(); ++i) {
+    const std::int32_t winner = mine.id.values()[i];
+    const Draw* draw = winner == kBackground ? nullptr : draws.draw(static_cast<std::uint32_t>(winner));
+    const bool writes_none = draw != nullptr && !draw->merge.depth_mask && is_either(out.depth.values()[i]);
+    if (winner == kBackground || writes_none) cleared.push_back(i);
   }
+  if (cleared.empty()) return out;
+  const double z = mine.depth.values()[cleared.front()];  // all are cleared to one
+  for (const std::size_t i : cleared) out.depth.values()[i] = is_either(z) ? z : out.depth.values()[i];
   return out;
 }
 

@@ -268,6 +268,26 @@ TEST(LegalDepths, TheClearedOneBeneathAWinnerMayBeEitherCode) {
   EXPECT_TRUE(fails(compared(45877)));
 }
 
+// Draws that write no depth, over a clear depth half way between two codes: the candidate has the other code throughout,
+// but for one pixel.
+TEST(LegalDepths, AClearDepthBeneathDrawsWithoutDepthIsOfOneCode) {
+  Scene scene = suite_scene("depth/clear_on_half");
+  for (Draw& draw : scene.draws) draw.merge.depth_mask = false;
+  Capture mine = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
+  const double scale = depth_scale(scene.frame.depth), code = scene.frame.clear_depth * scale;
+  auto& depth = mine.planes.depth.values();
+  const double other = (depth[0] == std::floor(code) / scale ? std::ceil(code) : std::floor(code)) / scale,
+               own = depth[0];
+  ASSERT_NE(other, own);
+  const auto judged = [&] { return row_of_stage(scene, mine, Stage::merge, {}).outcome; };
+  std::ranges::fill(depth, other);
+  EXPECT_NE(judged(), Outcome::different);
+  const auto drawn = std::ranges::find_if(mine.planes.id.values(), [](std::int32_t id) { return id != kBackground; });
+  ASSERT_NE(drawn, mine.planes.id.values().end());
+  depth[static_cast<std::size_t>(drawn - mine.planes.id.values().begin())] = own;
+  EXPECT_EQ(judged(), Outcome::different);
+}
+
 // Codes of 16 bits are held to their declared rounding though depths are interpolated in float; of 24 bits they are not.
 TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
   const auto outcome = [](DepthFormat format, Conventions::Rounding declared, double off) {
