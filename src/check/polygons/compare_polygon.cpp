@@ -18,7 +18,8 @@ double ComparedPrimitive::reach() const { return factor * u * corners.scale; }
 void within_triangle(Meter& meter, const ClipVertex<double>& v, const ComparedPrimitive& primitive) {
   const Corners& corners = primitive.corners;
   const double factor = primitive.factor;
-  meter.value(distance_from_triangle(v, corners) / u, factor, primitive.at("off its triangle"), 0, 0);
+  const double from_plane = distance_from_triangle(v, corners);
+  meter.value(from_plane / u, factor, primitive.at("off its triangle"), from_plane, 0);
   const auto d = distances(v.p_clip);
   for (std::size_t p = 0; p < corners.planes; ++p)
     meter.value(std::max(-d[p], 0.0) / (u * corners.scale), factor, primitive.at("outside a plane"), d[p], 0);
@@ -150,7 +151,8 @@ void compare_cut(Meter& meter, const ClipVertex<double>& v, const ClipVertex<dou
                  const ComparedPrimitive& primitive) {
   const Corners& corners = primitive.corners;
   const double factor = primitive.factor;
-  meter.value(distance_from_triangle(v, corners) / u, factor, primitive.at("off its triangle"), 0, 0);
+  const double from_plane = distance_from_triangle(v, corners);
+  meter.value(from_plane / u, factor, primitive.at("off its triangle"), from_plane, 0);
   const auto d = distances(v.p_clip), d_ref = distances(w.p_clip);
   int planes = 0;
   for (std::size_t p = 0; p < corners.planes; ++p) {
