@@ -44,8 +44,7 @@ class Times : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
-      if (run.run_type == Run::RT_Iteration && !run.error_occurred)
-        of_[run.run_name.function_name].push_back(run.GetAdjustedRealTime());
+      if (run.run_type == Run::RT_Iteration) of_[run.run_name.function_name].push_back(run.GetAdjustedRealTime());
     }
   }
   double median(const std::string& name) {

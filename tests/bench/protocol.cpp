@@ -29,6 +29,10 @@ int main() {
     } catch (const Unsupported&) {
     }
   }
+  if (scenes.empty()) {
+    fmt::print(stderr, "protocol: {} draws none of the suite's scenes\n", PLUMBLINE_C_RENDERER);
+    return 2;
+  }
   std::size_t drawn = 0;
   const Clock::time_point start = Clock::now();
   while (Clock::now() - start < kTime) renderer->capture(scenes[drawn++ % scenes.size()], {});
