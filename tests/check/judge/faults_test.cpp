@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <random>
 #include <set>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "faults/faults.h"
+#include "kernels/coverage.h"
 #include "matrix/legal.h"
 #include "matrix/matrix.h"
 #include "matrix/report.h"
@@ -118,6 +122,43 @@ TEST(FaultMatrix, the_sample_is_spread) {
   const matrix::SceneList six = {0, 2, 4, 6, 8, 10};
   EXPECT_EQ(matrix::spread(six, 3), (matrix::SceneList{0, 4, 8}));
   EXPECT_EQ(matrix::spread(six, 9), six);
+}
+
+using Pixels = std::vector<std::pair<int, int>>;  // y, x
+
+Pixels covered_with(const pipeline::Stages& stages, const pipeline::WindowTriangle& t) {
+  Pixels out;
+  for (const glm::ivec2 p : stages.coverage(t, {0, 0, 64, 64})) out.emplace_back(p.y, p.x);
+  std::ranges::sort(out);
+  return out;
+}
+
+// Corners on rows' centres: edges begin there, stepped or not. Each row loses one pixel of its span, and one row is lost.
+TEST(Faults, OfScanlinesLeaveTrianglesOnRowCentresRight) {
+  std::mt19937 random(4);
+  const auto in = [&](int most) { return static_cast<int>(random() % static_cast<unsigned>(most)); };
+  const auto stages_of = [](std::string_view name) { return faults::named(name).stages(); };
+  std::size_t rows_lost = 0;
+  for (int i = 0; i < 300; ++i) {
+    pipeline::WindowTriangle t{};
+    t.corners = 3;
+    for (auto& v : t.v) v.snapped = {in(64 * 256), 256 * in(64)};
+    t.front = snapped_area(t) > 0;
+    if (snapped_area(t) == 0) continue;
+    const Pixels right = covered_with(pipeline::production_stages(), t);
+    std::map<int, std::size_t> of_row;
+    for (const auto& [y, x] : right) ++of_row[y];
+    EXPECT_EQ(covered_with(stages_of("coverage.edges_not_advanced"), t), right);
+    for (const char* name : {"coverage.first_of_spans_lost", "coverage.last_of_spans_lost"})
+      EXPECT_EQ(covered_with(stages_of(name), t).size(), right.size() - of_row.size()) << name;
+    for (const char* name : {"coverage.row_below_middle_lost", "coverage.row_above_middle_lost"}) {
+      const std::size_t left = covered_with(stages_of(name), t).size();
+      const auto is_row = [&](const auto& row) { return left + row.second == right.size(); };
+      EXPECT_TRUE(left == right.size() || std::ranges::any_of(of_row, is_row)) << name;
+      rows_lost += left < right.size();
+    }
+  }
+  EXPECT_GT(rows_lost, 300u);
 }
 
 }  // namespace
