@@ -255,7 +255,7 @@ TEST(OracleConventions, WithoutPerspectiveColoursGoByTheWindow) {
   EXPECT_NEAR(legal(scene, {}).at(16, 16)[0].color.r, (s / 16) / ((1 - s) / 2 + s / 16), 1e-5);
 }
 
-// Of a cut triangle, an inclusive rule covers samples on a diagonal by both pieces; which diagonal is unknown.
+// Samples on a diagonal of a cut triangle are in both pieces by an inclusive rule; which diagonal is unknown.
 TEST(OracleConventions, AnInclusiveRuleCoversByBothPiecesBesideADiagonal) {
   const Scene scene = window_scene({{glm::vec3(-20, -20, 0.5f), {100, -20, 0.5f}, {10, 60, 0.5f}}});
   C inclusive, left_bottom;
