@@ -133,7 +133,8 @@ TEST(OracleConventions, CornersOfTheNearPlanesCutsMayLieFarOutside) {
   C in_float;
   in_float.depth_arithmetic = C::DepthArithmetic::in_float;
   const auto width_at = [&](const C& conventions) {
-    const auto answers = legal(scene, conventions).at(kSize / 2, kSize / 4);
+    const Legal legal_here = legal(scene, conventions);
+    const auto answers = legal_here.at(kSize / 2, kSize / 4);
     return answers.empty() ? -1 : answers.back().z_hi - answers.back().z_lo;
   };
   Projected projected = project(scene, in_float);
