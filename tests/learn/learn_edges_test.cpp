@@ -111,7 +111,7 @@ TEST(LearnTies, ARuleHoldsOnSlantedEdgesTooOrNoneIsFound) {
   const auto learned_with = [](auto alter) {
     auto renderer = std::make_unique<OfAlteredScenes>();
     renderer->after = [alter](const Scene& scene, Capture& out) {
-      if (scene.name.ends_with("slanted")) alter(out.planes.color(37, 33));
+      if (scene.name.ends_with("fan")) alter(out.planes.color(37, 33));
     };
     return learned(std::move(renderer));
   };
