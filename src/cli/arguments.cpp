@@ -59,6 +59,8 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
   text(command, "--junit", o.junit, "Write a test case per scene as JUnit's XML");
   text(command, "--markdown", o.markdown, "Write a summary for a CI page");
+  command.add_flag("-v,--verbose", o.verbose,
+                   "Print the rows of every scene (default: of those that do not hold, or of a single one)");
   text(command, "--rows", o.rows, "Leave each scene's rows, and whether it holds, in this folder");
   text(command, "--failures", o.failures, "Leave a page of each scene that does not hold in this folder");
   text(command, "--expect", o.expect, "Known differences, each with reason, issue and last day");

@@ -131,15 +131,22 @@ struct JudgedRun {
   std::set<std::string> words;  // that verdicts refer to
 };
 
-// Judges the scenes, and prints each one's rows.
+// Judges the scenes, and prints a line for each one that holds, and the rows of the others.
 void judge_all(const std::vector<Scene>& scenes, CheckRules& rules, JudgedRun& run) {
   const CheckOptions& o = rules.options;
-  fmt::print("{}", report::table_head());
+  const bool all_rows = o.verbose || scenes.size() == 1;
+  bool has_head = false;
+  const auto print = [&](const check::SceneVerdict& verdict) {
+    const bool line = !all_rows && verdict.failure.empty();
+    if (!line && !has_head) fmt::print("{}", report::table_head());
+    has_head |= !line;
+    fmt::print("{}", line ? report::scene_line(verdict) : report::table_rows(verdict));
+    std::fflush(stdout);
+  };
   const auto take = [&](JudgedScene judged) {
     const check::SceneVerdict& verdict = run.verdicts.emplace_back(std::move(judged.verdict));
     std::ranges::move(judged.settled, std::back_inserter(run.settled));
-    fmt::print("{}", report::table_rows(verdict));
-    std::fflush(stdout);
+    print(verdict);
     if (!o.rows.empty()) leave_rows(o.rows, verdict, judged.failure);
     run.failures.add(verdict, std::move(judged.failure));
     if (judged.drawing) rules.page->add(std::move(*judged.drawing));

@@ -37,6 +37,7 @@ struct CheckOptions {
   std::string rubric, grades;  ///< points by scene and stage (report/runs/grade.h), and where they go; or empty
   int jobs = 0;                ///< scenes judged at a time; 0: as many as there are processors
   WorkerLimits limits;         ///< of the processes that judge
+  bool verbose = false;        ///< the rows of scenes that hold are printed, too, as those of a single scene always are
   bool allow_missing = false;
   bool seeks_causes = true;             ///< a program's wrong scenes are drawn with each known fault
   std::string cache = default_cache();  ///< a folder of verdicts of earlier runs (check/kept), or empty

@@ -43,6 +43,24 @@ TEST_F(Cli, a_misspelt_command_or_option_says_what_was_meant) {
   EXPECT_FALSE(plumb("xyzzy").says("did you mean"));
 }
 
+TEST_F(Cli, check_prints_a_line_for_each_scene_that_holds_and_all_rows_of_the_others) {
+  const std::string scenes =
+      fmt::format("check {0}cull/both_windings.json {0}cull/set_and_unset.json --against exact ", kScenes);
+  const Outcome hold = plumb(scenes);
+  EXPECT_EQ(hold.code, 0);
+  EXPECT_TRUE(hold.says("cull/both_windings           holds: ") && hold.says("cull/set_and_unset           holds: "));
+  EXPECT_FALSE(hold.says("exact, per stage")) << hold.text;
+  const Outcome wrong = plumb(scenes + "--fault coverage.inclusive_edges");
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_TRUE(wrong.says("cull/both_windings           holds: ") &&
+              wrong.says("cull/set_and_unset           exact, per stage"));
+  EXPECT_FALSE(wrong.says("cull/both_windings           exact")) << wrong.text;
+  const Outcome all = plumb(scenes + "--verbose");
+  EXPECT_TRUE(all.says("cull/both_windings           exact, per stage") && !all.says("holds: ")) << all.text;
+  const Outcome single = plumb("check " + kScenes + "cull/both_windings.json --against exact");
+  EXPECT_TRUE(single.says("cull/both_windings           exact, per stage") && !single.says("holds: ")) << single.text;
+}
+
 TEST_F(Cli, a_closed_standard_output_is_an_error) {
   for (const std::string& arguments : {"check " + kSharedEdges, std::string("list"), "diagnose " + kSharedEdges}) {
     for (const char* output : {">&-", ">/dev/full"}) {

@@ -47,6 +47,13 @@ TEST_F(Reports, ATableRowSaysAll) {
   }
 }
 
+TEST_F(Reports, ASceneThatHoldsIsALine) {
+  const Comparison unsupported = not_compared(Outcome::unsupported, "because of this");
+  EXPECT_EQ(scene_line(verdict_of({compared(Outcome::equal), compared(Outcome::within, 1, 8), unsupported})),
+            "group/scene                  holds: 1 equal, 1 within, 1 unsupported\n");
+  EXPECT_EQ(scene_line(verdict_of({unsupported})), "group/scene                  not judged: 1 unsupported\n");
+}
+
 TEST_F(Reports, ARowOfWhatWasNotJudgedShowsNoNumbersButTheReason) {
   for (Outcome outcome : {Outcome::unsupported, Outcome::missing, Outcome::failed}) {
     const std::string row = table_rows(verdict_of({not_compared(outcome, "because of this")}));

@@ -129,6 +129,13 @@ struct Tally {
 
 }  // namespace
 
+std::string scene_line(const SceneVerdict& verdict) {
+  Tally tally;
+  tally.add(verdict);
+  const bool judged = check::any_judged(std::span(&verdict, 1));
+  return fmt::format("{:<28} {}: {}\n", verdict.scene, judged ? "holds" : "not judged", tally.text());
+}
+
 std::string group_lines(std::span<const SceneVerdict> verdicts) {
   std::map<std::string, Tally> groups;
   for (const SceneVerdict& verdict : verdicts) groups[check::group_of(verdict.scene)].add(verdict);

@@ -12,6 +12,8 @@ namespace plumbline::report {
 std::string table_head();
 /// A line per comparison; one line for all stages that a reference does not judge for the same reason.
 std::string table_rows(const check::SceneVerdict& verdict);
+/// A line for a scene that holds: numbers of its comparisons by outcome; or that nothing of it was judged.
+std::string scene_line(const check::SceneVerdict& verdict);
 /// For a scene that failed: the first different stage, its worst item, the stages whose lack of a judge is a failure,
 /// and the command that repeats it; else empty.
 std::string failure_lines(const check::SceneVerdict& verdict, std::span<const Stage> unjudged,
