@@ -7,6 +7,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "capture/float_depth.h"
 #include "capture/stages.h"
 #include "reference/arithmetic/color_error.h"
 #include "reference/arithmetic/draw_ranges.h"
@@ -222,12 +223,10 @@ void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, T
   }
 }
 
-/// Displacement of edges whose x is added up from row to row: two roundings a row, of a slope and of a sum that is at
-/// most the window's width, over the rows of the visible part.
-double stepped_edges(const Projected& scene, std::span<const glm::dvec2> outline) {
-  if (scene.conventions.depth_arithmetic != Conventions::DepthArithmetic::in_float_stepped) return 0;
+/// edge_displacement() of the edges of a triangle's visible part.
+double of_edges(const Projected& scene, std::span<const glm::dvec2> outline) {
   const auto [low, high] = std::ranges::minmax(outline, {}, [](const glm::dvec2& p) { return p.y; });
-  return 2 * kFloatRounding * (high.y - low.y + 2) * scene.width;
+  return edge_displacement(scene.conventions.depth_arithmetic, high.y - low.y, scene.width);
 }
 
 /// Sets `guarded`: the pieces of a renderer that leaves the sides to the raster.
@@ -279,7 +278,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
     p_window[i] = glm::dvec2(part.v[i]) / w;
     farthest = glm::max(farthest, glm::abs(part.v[i] / w));
   }
-  t.stepped = stepped_edges(scene, std::span(p_window).first(part.count));
+  t.stepped = of_edges(scene, std::span(p_window).first(part.count));
   t.reach = displacement(scene, t, farthest, t.w_min);
   set_growth(scene, c, t);
   const std::span corners = std::span(p_window).first(part.count);

@@ -32,7 +32,14 @@ double or_infinite(double v) { return std::isfinite(v) ? v : kInfinity; }
 
 double sum_of(glm::dvec2 v) { return v.x + v.y; }
 
+// edge_displacement() of an edge that is stepped [u of a pixel].
+double stepped_edge(double rows, double most_x) { return 2 * (std::ceil(rows) + 2) * most_x; }
+
 }  // namespace
+
+double edge_displacement(Conventions::DepthArithmetic arithmetic, double rows, double most_x) {
+  return arithmetic == Conventions::DepthArithmetic::in_float_stepped ? kU * stepped_edge(rows, most_x) : 0;
+}
 
 double error_by_edge_functions(const WindowCorners& corners, glm::dvec2 p) {
   const Edges edges(corners);
@@ -90,9 +97,9 @@ double error_by_steps(const WindowCorners& corners, glm::dvec2 p) {
     low = glm::min(low, edges.at[i]);
     high = glm::max(high, edges.at[i]);
   }
-  const glm::dvec2 steps = glm::ceil(glm::max(glm::abs(p - low), glm::abs(high - p))) + 2.0;  // from either side
-  return or_infinite(most * sum_of(steps) +
-                     2 * steps.y * std::max(std::abs(low.x), std::abs(high.x)) * std::abs(slope));
+  const glm::dvec2 way = glm::max(glm::abs(p - low), glm::abs(high - p));  // from either side
+  const double of_edge = stepped_edge(way.y, std::max(std::abs(low.x), std::abs(high.x)));
+  return or_infinite(most * sum_of(glm::ceil(way) + 2.0) + of_edge * std::abs(slope));
 }
 
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p) {
@@ -133,7 +140,7 @@ double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double alt
   const double by_edges = 4 * (3 * 2 * thin + 2 * thin + 1),
                by_plane = 4 * (1 + 2 * rise + 3 * std::sqrt(2.0) * rise * thin),
                by_equations = 10 * 30 * window.x * window.y / (altitude * altitude);
-  const double of_edge = 2 * (window.y + 3) * window.x * rise / diagonal,
+  const double of_edge = stepped_edge(window.y + 1, window.x) * rise / diagonal,
                steps = arithmetic == in_float_stepped ? sum_of(window) + 6 + of_edge : 0,
                in_differences = std::max(by_edges, by_plane) + steps;
   return kU * ((arithmetic == in_float_from_origin ? std::max(in_differences, by_equations) : in_differences) + 1);

@@ -30,9 +30,13 @@ double error_by_plane(const WindowCorners& corners, glm::dvec2 p);
 /// |A|. Small triangles far from the origin lose most.
 double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
+/// Displacement along x of an edge over so many `rows`, |x| at most `most_x` [pixels]. in_float_stepped: x is added up
+/// from row to row, two roundings a row (slope, sum), two more at the ends. Otherwise 0.
+double edge_displacement(Conventions::DepthArithmetic arithmetic, double rows, double most_x);
+
 /// Error at p, besides a plane's, of z that is stepped there from a corner [u of window z]: along an edge from row to
 /// row, then from column to column, a sum each, of numbers of at most the largest |z_i|. The edge's x is stepped, too:
-/// two roundings a row, times |dz/dx|.
+/// edge_displacement() times |dz/dx|.
 double error_by_steps(const WindowCorners& corners, glm::dvec2 p);
 
 /// Error of a depth at p [window z], and u for its code: a product and a sum, half a unit in the last place of a number
