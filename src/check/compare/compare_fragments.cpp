@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include "check/bounds/texture_bounds.h"
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
+#include "check/compare/shared_edges.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -87,35 +90,75 @@ bool has_corner_between_places(const WindowTriangle<double>& t, const Convention
   return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(v.p_win.x) || is_between(v.p_win.y); });
 }
 
-// Displacement of edges along x whose x is added up from row to row in float, if the conventions declare such
-// arithmetic: two roundings a row, of numbers of at most the largest x [pixels].
-double stepped_edges(const WindowTriangle<double>& t, const Conventions& conventions) {
-  if (conventions.depth_arithmetic != Conventions::DepthArithmetic::in_float_stepped) return 0;
+// edge_displacement() of a triangle's edges.
+double of_steps(const WindowTriangle<double>& t, const Conventions& conventions) {
   const auto [low, high] = std::minmax({t.v[0].p_win.y, t.v[1].p_win.y, t.v[2].p_win.y});
   const double most_x = std::max({std::abs(t.v[0].p_win.x), std::abs(t.v[1].p_win.x), std::abs(t.v[2].p_win.x)});
-  return 2 * u * (high - low + 2) * most_x;
+  return edge_displacement(conventions.depth_arithmetic, high - low, most_x);
 }
 
-// Fragments; those of samples on edges are ambiguous where open(triangle).
+// Displacement of a triangle's edges in the candidate [pixels]: that by steps, and that by its grid, by which a corner is
+// moved by half a step in x and in y, at most; rounded down or up, by a whole step. Without a grid, an edge function in
+// float is off by 8 u of the largest coordinates.
+double moved(const WindowTriangle<double>& t, const Conventions& conventions) {
+  const int bits = conventions.subpixel_bits;
+  if (bits == Conventions::kFloat) {
+    double most = 0;
+    for (const WindowVertex<double>& v : t.v) most = std::max(most, std::abs(v.p_win.x) + std::abs(v.p_win.y));
+    return 8 * u * most + of_steps(t, conventions);
+  }
+  const bool to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
+  return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions);
+}
+
+// Whether a tie rule allows it that a sample on a shared edge is in one of its triangles, but not, or also, in the other.
+bool is_owned(bool in_one, bool in_other, Conventions::TieRule rule) {
+  if (in_one != in_other) return true;
+  return rule == (in_one ? Conventions::TieRule::inclusive : Conventions::TieRule::exclusive);
+}
+
+// Number of a triangle's edges that pass p within `most` [pixels].
+std::size_t edges_near(const std::array<glm::dvec2, 3>& corners, glm::dvec2 p, double most) {
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 along = corners[(i + 1) % 3] - corners[i], to = p - corners[i];
+    const double length = glm::length(along), beside = std::abs(along.x * to.y - along.y * to.x) / length,
+                 before = glm::dot(along, to) / length;
+    out += beside <= most && before >= -most && before <= length + most;
+  }
+  return out;
+}
+
+// Fragments; those of samples on edges are ambiguous where open(triangle), except in none or in both of two triangles
+// that share the edge.
 template <class Open>
 Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions, glm::dvec2 sample, Open open) {
-  // Each side moves a corner by half a step of its grid in x and in y, at most; rounded down or up, by a whole step.
-  const int bits = conventions.subpixel_bits;
-  const double step = bits == Conventions::kFloat ? 1.0 / kSubpixel : std::exp2(-bits),
-               own = conventions.subpixel_rounding == Conventions::Rounding::nearest ? step : 2 * step,
-               by_grid = std::sqrt(2.0) / 2 * (own + 1.0 / kSubpixel);  // [pixel]
+  constexpr double kOfExact = std::numbers::sqrt2 / 2 / kSubpixel;  // [pixels] as far as exact moves a corner
+  const bool by_one_grid =
+      conventions.subpixel_bits == 8 && conventions.subpixel_rounding == Conventions::Rounding::nearest;
+  std::optional<SharedEdges> shared;  // once there is a fragment to ask about
+  const auto is_covered = [&](Covered c, std::uint32_t triangle) {
+    c.triangle = triangle;
+    return std::ranges::binary_search(candidate.covered, draw_order(c), {},
+                                      [](const Covered& o) { return draw_order(o); });
+  };
+  // Number of the triangle's edges that pass p as near as they may be moved, or as near as both sides may move them. By
+  // one grid both sides snap a corner to one place.
+  const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
+    const WindowTriangle<double>& t = candidate.triangles[triangle];
+    if (by_one_grid && !has_corner_between_places(t, conventions))
+      return edges_near(window_corners(t, true), p, of_steps(t, conventions));
+    return edges_near(window_corners(t, false), p, moved(t, conventions) + (by_both ? kOfExact : 0));
+  };
   const auto on_an_edge = [&](const Covered& c) {
-    const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
     const glm::dvec2 p = glm::dvec2(c.x, c.y) + sample;
-    const double most = by_grid + stepped_edges(triangle, conventions);
-    for (std::size_t i = 0; triangle.corners == 3 && open(triangle) && i < 3; ++i) {
-      const glm::dvec2 a(triangle.v[i].p_win), along = glm::dvec2(triangle.v[(i + 1) % 3].p_win) - a, to = p - a;
-      const double length = glm::length(along), beside = std::abs(along.x * to.y - along.y * to.x) / length,
-                   before = glm::dot(along, to) / length;
-      if (beside <= most && before >= -most && before <= length + most) return true;
-    }
-    return false;
+    const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
+    if (triangle.corners != 3 || !open(triangle) || near(c.triangle, p, true) == 0) return false;
+    if (!shared) shared.emplace(candidate.triangles, by_one_grid);
+    const std::optional<std::uint32_t> other = shared->beyond(c.triangle, p);
+    if (!other || near(c.triangle, p, false) != 1 || near(*other, p, false) != 1) return true;
+    return is_owned(is_covered(c, c.triangle), is_covered(c, *other), conventions.tie_rule);
   };
   return covered_except(candidate, reference, on_an_edge);
 }

@@ -70,12 +70,12 @@ Measurement compare_varying(const SceneJudgement& c, Stage stage, Varying v, con
   return compare_attributes(a, b, factor, from_origin(c, stage), c.conventions);
 }
 
-// Whether a foreign candidate declares a tie rule, and that or its grid is another than exact's.
+// Whether a foreign candidate declares conventions, and its tie rule or its grid is not exact's.
 bool covers_otherwise(const SceneJudgement& c) {
   const Conventions& d = c.conventions;
   const bool is_dialects = d.tie_rule == Conventions::TieRule::left_bottom && d.subpixel_bits == 8 &&
                            d.subpixel_rounding == Conventions::Rounding::nearest;
-  return c.foreign && d.tie_rule != Conventions::TieRule::any && !is_dialects;
+  return c.foreign && !(d == undeclared()) && !is_dialects;
 }
 
 // Names the field after the varying, which was compared as a colour.

@@ -26,7 +26,7 @@ Measurement extra_fragment(double outside, Conventions::DepthArithmetic arithmet
 
 TEST(SteppedEdges, MayCoverAsFarAsTheirRoundingsReach) {
   using enum Conventions::DepthArithmetic;
-  const double reach = 2 * kU * 1802 * 1900, by_grid = std::sqrt(2.0) / 256;  // 0.41 and 0.0055 pixel
+  const double reach = 2 * kU * 1802 * 1900, by_grid = std::sqrt(2.0) / 512 + 8 * kU * 3800;  // 0.41, 0.0046
   EXPECT_EQ(extra_fragment(0.95 * reach, in_float_stepped).differing, 0u);
   EXPECT_EQ(extra_fragment(0.95 * reach, in_float_stepped).ambiguous, 1u);
   EXPECT_TRUE(fails(extra_fragment(1.05 * reach, in_float_stepped)));
