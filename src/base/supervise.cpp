@@ -1,5 +1,7 @@
 #include "base/supervise.h"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -7,18 +9,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <fstream>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace plumbline {
 
@@ -46,10 +48,19 @@ Shared*& shared() {
   return memory;
 }
 
-/// The parent's number in /proc/PID/stat, or 0.
-pid_t parent_of(const fs::path& process) {
-  std::string stat;
-  std::getline(std::ifstream(process / "stat"), stat);
+// kill_children() runs after a fork() of a process with threads, one of which may hold malloc()'s lock: nothing here
+// takes memory.
+
+/// A process' parent by its folder in /proc, or 0.
+pid_t parent_of(int proc, const char* process) {
+  const int folder = ::openat(proc, process, O_PATH | O_DIRECTORY | O_CLOEXEC),
+            file = folder < 0 ? -1 : ::openat(folder, "stat", O_RDONLY | O_CLOEXEC);
+  std::array<char, 512> bytes;
+  const ssize_t got = file < 0 ? 0 : ::read(file, bytes.data(), bytes.size());
+  for (const int opened : {folder, file}) {
+    if (opened >= 0) ::close(opened);
+  }
+  const std::string_view stat(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   const std::size_t name_end = stat.rfind(')');  // the name before it may hold anything
   if (name_end == stat.npos || name_end + 4 >= stat.size()) return 0;
   pid_t parent = 0;
@@ -57,16 +68,23 @@ pid_t parent_of(const fs::path& process) {
   return parent;
 }
 
-std::vector<pid_t> children() {
-  std::vector<pid_t> out;
-  std::error_code error;
-  for (fs::directory_iterator entry("/proc", error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    pid_t pid = 0;
-    if (std::from_chars(name.data(), name.data() + name.size(), pid).ptr != name.data() + name.size()) continue;
-    if (parent_of(entry->path()) == ::getpid()) out.push_back(pid);
+/// Calls visit(pid_t) for each child of this process; none without a /proc.
+template <class Visit>
+void each_child(Visit visit) {
+  const int proc = ::open("/proc", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (proc < 0) return;
+  alignas(dirent64) std::array<char, 8192> entries;
+  for (ssize_t got; (got = ::getdents64(proc, entries.data(), entries.size())) > 0;) {
+    for (ssize_t at = 0; at < got;) {
+      const auto* entry = reinterpret_cast<const dirent64*>(&entries[static_cast<std::size_t>(at)]);
+      at += entry->d_reclen;
+      const std::string_view name(entry->d_name);
+      pid_t pid = 0;
+      if (std::from_chars(name.data(), name.data() + name.size(), pid).ptr != name.data() + name.size()) continue;
+      if (parent_of(proc, entry->d_name) == ::getpid()) visit(pid);
+    }
   }
-  return out;
+  ::close(proc);
 }
 
 void remove_registered(Shared& memory) {
@@ -119,9 +137,9 @@ std::pair<int, int> wait_for_program(pid_t program, const sigset_t& waited, cons
 void kill_children() {
   // The children of what is killed become ours, so that each round finds the next generation.
   for (int unseen = 0; unseen < 1000 && ::waitpid(-1, nullptr, WNOHANG) >= 0;) {
-    const std::vector<pid_t> all = children();
-    for (const pid_t child : all) ::kill(child, SIGKILL);
-    if (!all.empty()) {
+    bool any = false;
+    each_child([&any](pid_t child) { any = ::kill(child, SIGKILL) == 0 || any; });
+    if (any) {
       ::waitpid(-1, nullptr, 0);
     } else {  // not in /proc yet, or there is no /proc
       ++unseen;

@@ -219,7 +219,8 @@ struct Workers::Run {
       Worker& worker = workers[i];
       readable_[i] = worker.job && files[i].revents != 0;
       if (!worker.job || readable_[i] || worker.hung || worker.progress.left() >= milliseconds(0)) continue;
-      worker.hung = true;
+      worker.hung = true;  // its socket may stay open in a process that it has begun
+      readable_[i] = 1;
       ::kill(worker.pid, SIGKILL);
     }
   }
@@ -266,7 +267,7 @@ void Workers::Run::run(const WorkerJobs& jobs) {
       Worker& worker = workers[i];
       const std::size_t number = worker.job.value();
       Job& job = all[number];
-      if (receive_some(worker.socket, worker.received)) {
+      if (!worker.hung && receive_some(worker.socket, worker.received)) {
         if (!(job.answer = take_message(worker.received))) continue;
         if (job.answer->front() == '-') end = std::min(end, number);
       } else {

@@ -124,6 +124,21 @@ TEST(Workers, AHangEndsOneWorker) {
   expect_one_end(harmed([] { pause(); }, {.step = 3s}), "took longer than 3s and was killed");
 }
 
+TEST(Workers, AHangEndsThoughAnotherProcessHoldsTheWorkersSocket) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const auto leave_an_orphan = [&] {
+    if (fork() == 0) {
+      close(ends[1]);
+      char byte;
+      _exit(static_cast<int>(read(ends[0], &byte, 1)));  // until this test ends
+    }
+    pause();
+  };
+  expect_one_end(harmed(leave_an_orphan, {.step = 1s}), "took longer than 1s and was killed");
+  for (const int end : ends) close(end);
+}
+
 TEST(Workers, EachStepHasTheWholeLimit) {
   const auto make = [](Progress& progress) -> Workers::Answer {
     return [&progress](const std::string&) {
