@@ -78,6 +78,9 @@ void learn_clipping(Prober& prober) {
 // A wall that goes from w = 2 at the left to w = 16 at the right, black to white.
 void learn_interpolation(Prober& prober) {
   const ConventionWords words = words_of("interpolation");
+  const C& c = prober.learned.conventions;
+  if (prober.is_open("color_encoding")) return prober.open(words, "the encoding of colours is open");
+  if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
   Scene scene = probe_frame("interpolation", kFrameSize, kFrameSize);
   scene.projection = Perspective{90, 1, 100};
   const auto at = [](double x, double y, double w, float red) {
@@ -86,7 +89,6 @@ void learn_interpolation(Prober& prober) {
   add_triangles(scene, quad({at(-1, -1, 2, 0), at(1, -1, 16, 1), at(1, 1, 16, 1), at(-1, 1, 2, 0)}));
   const Plane<glm::vec4> color = prober.draw(scene).color;
   std::size_t perspective = 0, affine = 0;
-  const C& c = prober.learned.conventions;
   for (int x = 0; x < kFrameSize; ++x) {
     const double s = (x + c.sample.x) / kFrameSize, share = (s / 16) / ((1 - s) / 2 + s / 16);
     const auto near_to = [&](double v) {
@@ -97,8 +99,6 @@ void learn_interpolation(Prober& prober) {
   }
   const std::size_t most = std::max(perspective, affine);
   const std::string evidence = fmt::format("{} of {} pixels", most, kFrameSize);
-  if (prober.is_open("color_encoding")) return prober.open(words, "the encoding of colours is open");
-  if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
   if (most * 10 < kFrameSize * 9) return prober.fits_none(words, evidence + " at most are explained");
   prober.learned.conventions.interpolation =
       perspective >= affine ? C::Interpolation::perspective : C::Interpolation::affine;

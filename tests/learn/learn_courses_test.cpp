@@ -99,7 +99,7 @@ TEST(LearnCourses, AProbeThatFailsIsAFindingAndTheOthersGoOn) {
   EXPECT_TRUE(is_said(found, "probe/colours: signal 11"));
   EXPECT_EQ(std::ranges::count(found.open, "color_rounding"), 1);
   EXPECT_EQ(found.tie_rule, C::TieRule::left_bottom);
-  Failing first({"probe/rows"}), three({"probe/colours", "probe/interpolation", "probe/alpha_test"});
+  Failing first({"probe/rows"}), three({"probe/colours", "probe/provoking_vertex", "probe/alpha_test"});
   EXPECT_THROW(learn(first), RendererFailed);
   EXPECT_THROW(learn(three), RendererFailed);
 }
