@@ -1,13 +1,20 @@
 #include "reference/arithmetic/error_in_float.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "capture/float_depth.h"
+#include "reference/arithmetic/widths.h"
 
 namespace plumbline::math {
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 WindowCorners window_corners(const Projected& scene, const Triangle& t) {
   WindowCorners out;
@@ -19,16 +26,40 @@ WindowCorners window_corners(const Projected& scene, const Triangle& t) {
   return out;
 }
 
-// Error of a plane in the pieces of a cut triangle, of values of at most 1; `slope` [1 / pixel].
-double error_of_pieces(const Projected& scene, const Triangle& t, double slope, const PieceAltitudes& altitudes) {
+// Largest error(corners) of the pieces that come near the ray d, a piece being any three corners of an outline; infinite
+// where none does, or where one may have no area. Corners may be off by `reach`: terms and area by 4 reach / altitude.
+template <class Error>
+double error_near(const Projected& scene, const Triangle& t, std::span<const glm::dvec2> outline, glm::dvec3 d,
+                  Error error) {
+  double out = -1;
+  each_piece(outline, [&](const std::array<glm::dvec2, 3>& piece) {
+    if (distance_to_triangle(glm::dvec2(d), piece) > 2 * t.reach) return;
+    const double height = altitude(piece[0], piece[1], piece[2]) - 2 * (t.reach - scene.snap);
+    WindowCorners corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double z_view = std::clamp(0.5 + glm::dot(t.z_plane, glm::dvec3(piece[i], 1)), 0.0, 1.0);
+      corners[i] = {piece[i] + 0.5 * glm::dvec2(scene.width, scene.height), to_window(t, z_view)};
+    }
+    const double off = 1 + 4 * t.reach / height;
+    out = std::max(out, height > 0 ? off * off * error(corners) : kInfinity);
+  });
+  return out < 0 ? kInfinity : out;
+}
+
+// Error of a plane in the pieces of a cut triangle: error_near(), or that of all pieces of such altitudes, of values of at
+// most 1, and that `slope` [1 / pixel], whichever is less.
+template <class Error>
+double error_of_pieces(const Projected& scene, const Triangle& t, double slope, glm::dvec3 d,
+                       const PieceAltitudes& altitudes, Error error) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   // A plane through corners that are off by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
-  const auto of_pieces = [&](double altitude, glm::dvec2 extent) {
-    return depth_error_of_pieces(arithmetic, altitude, slope * (1 + 4 * t.reach / altitude), extent);
+  const auto of_pieces = [&](const std::vector<glm::dvec2>& outline, double altitude, glm::dvec2 extent) {
+    const double of_all = depth_error_of_pieces(arithmetic, altitude, slope * (1 + 4 * t.reach / altitude), extent);
+    return std::min(of_all, error_near(scene, t, outline, d, error));
   };
-  const double framed = of_pieces(altitudes.framed, {scene.width, scene.height});
+  const double framed = of_pieces(t.outline, altitudes.framed, {scene.width, scene.height});
   if (t.guarded.extent == glm::dvec2(0)) return framed;
-  return std::max(framed, of_pieces(altitudes.guarded, t.guarded.extent));
+  return std::max(framed, of_pieces(t.guarded.outline, altitudes.guarded, t.guarded.extent));
 }
 
 }  // namespace
@@ -36,22 +67,22 @@ double error_of_pieces(const Projected& scene, const Triangle& t, double slope, 
 double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, const PieceAltitudes& altitudes) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
-  const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane)),
-               out = t.cut ? error_of_pieces(scene, t, slope, altitudes) : 0;
-  if (!t.ahead) return out;
-  const glm::dvec2 size(scene.width, scene.height);
-  return std::max(out, depth_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size));
+  const glm::dvec2 p = glm::dvec2(d) + 0.5 * glm::dvec2(scene.width, scene.height);
+  const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane));
+  const auto error = [&](const WindowCorners& corners) { return depth_error(arithmetic, corners, p); };
+  const double out = t.cut ? error_of_pieces(scene, t, slope, d, altitudes, error) : 0;
+  return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }
 
 double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, const PieceAltitudes& altitudes,
                              double slope) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
-  const double of_pieces = t.cut ? error_of_pieces(scene, t, slope, altitudes) : 0,
+  const glm::dvec2 p = glm::dvec2(d) + 0.5 * glm::dvec2(scene.width, scene.height);
+  const auto error = [&](const WindowCorners& corners) { return shares_error(arithmetic, corners, p); };
+  const double of_pieces = t.cut ? error_of_pieces(scene, t, slope, d, altitudes, error) : 0,
                out = std::isfinite(of_pieces) ? of_pieces : 0;
-  if (!t.ahead) return out;
-  const glm::dvec2 size(scene.width, scene.height);
-  return std::max(out, shares_error(arithmetic, window_corners(scene, t), glm::dvec2(d) + 0.5 * size));
+  return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }
 
 }  // namespace plumbline::math

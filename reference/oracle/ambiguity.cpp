@@ -213,7 +213,7 @@ DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b)
   if (later == DepthFunc::always || later == DepthFunc::never) return {};
   if (a.number != kNoSurface && a.number == b.number) return {};
   const PixelDepth& held = a.order > b.order ? b.win : a.win;
-  if (held.half == 0 && passes_all_over(later, frame.depth, held.z)) return {};
+  if (held.half == 0 && passes_all_over(later, held.z)) return {};
   const double step = depth_step(frame.depth, std::clamp(std::max(a.win.z, b.win.z), 0.0, 1.0));
   const double width = a.win.half + b.win.half + step;
   const double apart = std::abs(a.win.z - b.win.z), slope = glm::length(a.win.slope - b.win.slope);

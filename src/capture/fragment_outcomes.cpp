@@ -28,8 +28,7 @@ double depth_in_format(DepthFormat format, double z_win) {
   return (format == DepthFormat::z8 ? std::round(z_win * scale) : std::nearbyint(z_win * scale)) / scale;
 }
 
-bool passes_all_over(DepthFunc func, DepthFormat format, double held) {
-  if (depth_scale(format) == 0) return false;
+bool passes_all_over(DepthFunc func, double held) {
   return (func == DepthFunc::less_equal && held == 1) || (func == DepthFunc::greater_equal && held == 0);
 }
 

@@ -37,11 +37,11 @@ struct Held {
 };
 
 /// `hit` against the depth that the frame holds; depths no more than a step apart may compare either way, so that
-/// "less" and "less or equal" allow the same, but at the ends of formats with codes. Depths of one surface are equal.
+/// "less" and "less or equal" allow the same, but at 0 and 1. Depths of one surface are equal.
 Test depth_test(const Hit& of, const Held& frame, DepthFormat format) {
   const DepthFunc func = of.depth_func;
   const Interval hit{of.z_lo, of.z_hi}, held = frame.z;
-  if (held.lo == held.hi && passes_all_over(func, format, held.lo)) return {true, false, hit, held, held};
+  if (held.lo == held.hi && passes_all_over(func, held.lo)) return {true, false, hit, held, held};
   const double step = depth_step(format, std::max(hit.hi, held.hi));
   const bool is_same = of.surface != kNoSurface && of.surface == frame.surface;
   if (is_same || tie_of_clamped(hit, held)) {

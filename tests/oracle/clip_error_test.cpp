@@ -9,6 +9,7 @@
 #include "reference/arithmetic/project.h"
 #include "reference/arithmetic/widths.h"
 #include "reference/oracle/oracle.h"
+#include "reference/oracle/pixel_site.h"
 #include "scene/scene.h"
 
 namespace plumbline::math {
@@ -70,16 +71,30 @@ TEST(ClipError, OfSharesCountsThePiecesOfACutTriangle) {
   Conventions stepped;
   stepped.depth_arithmetic = Conventions::DepthArithmetic::in_float_stepped;
   const Projected scene = project(floor_across_the_eye(), stepped), in_double = project(floor_across_the_eye());
-  const Triangle& t = scene.triangles[0];
+  Triangle t = scene.triangles[0];
   ASSERT_TRUE(t.cut && !t.ahead);
+  t.guarded.extent = glm::dvec2(0);  // cut at the frame's sides alone
   const glm::dvec3 d = scene.ray(60, 10);
-  const PieceAltitudes wide{20, 20}, thin{1, 1}, none{0, 0};
-  const double error = shares_error_in_float(scene, t, d, wide, 0.01);
+  const PieceAltitudes wide{1e5, 1e5}, thin{1e4, 1e4}, none{0, 0};
+  const double error = shares_error_in_float(scene, t, d, wide, 1e-5);
   EXPECT_GT(error, 80 * kFloatRounding) << "a rounding a column";
-  EXPECT_GT(shares_error_in_float(scene, t, d, wide, 0.02), error);
-  EXPECT_GT(shares_error_in_float(scene, t, d, thin, 0.01), error);
-  EXPECT_EQ(shares_error_in_float(scene, t, d, none, 0.01), 0) << "without area, not bounded";
-  EXPECT_EQ(shares_error_in_float(in_double, t, d, wide, 0.01), 0);
+  EXPECT_GT(shares_error_in_float(scene, t, d, wide, 2e-5), error);
+  EXPECT_GT(shares_error_in_float(scene, t, d, thin, 1e-5), error);
+  const double of_pieces = shares_error_in_float(scene, t, d, none, 1e-5);
+  EXPECT_GT(of_pieces, error) << "without area: that of the pieces near the pixel";
+  EXPECT_TRUE(std::isfinite(of_pieces));
+  EXPECT_EQ(shares_error_in_float(in_double, t, d, wide, 1e-5), 0);
+  t.outline.clear();
+  EXPECT_EQ(shares_error_in_float(scene, t, d, none, 1e-5), 0) << "not bounded";
+}
+
+TEST(ClipError, RoundingTakesOffAPiecesAltitude) {
+  const Projected scene = project(floor_across_the_eye());
+  const Triangle& t = scene.triangles[0];
+  const PixelSite site(scene, t, 60, 10);
+  const double rounding = t.reach - scene.snap, thinnest = thinnest_piece(t.outline, glm::dvec2(site.d), 2 * t.reach);
+  EXPECT_GT(rounding, 0.001);
+  EXPECT_NEAR(site.pieces.framed, thinnest - 2 * rounding, 1e-9 * thinnest);
 }
 
 // x added up over 60 rows or less, at columns up to 80.

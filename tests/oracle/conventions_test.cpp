@@ -188,8 +188,8 @@ TEST(OracleConventions, DepthsInFloatLieWithinTheErrorOfTheirArithmetic) {
                  of_beyond = depth_error(arithmetic, beyond, {kX + 0.5, kY + 0.5});
     EXPECT_GT(error, 0x1p-23);
     EXPECT_NEAR(slack(whole, arithmetic), error, 0.01 * error);
-    EXPECT_GT(slack(beyond, arithmetic), 1.5 * of_beyond);
-    EXPECT_LT(slack(beyond, arithmetic), 0.01);
+    EXPECT_GT(slack(beyond, arithmetic), 1.05 * of_beyond) << "pieces near the pixel";
+    EXPECT_LT(slack(beyond, arithmetic), 3 * of_beyond) << "pieces elsewhere";
   }
 }
 
