@@ -18,6 +18,7 @@ long double offset_unit(DepthFormat format, const Conventions& conventions, doub
     case DepthFormat::z24: return unit / 0xffffff;
     case DepthFormat::z32f: break;
   }
+  if (conventions.float_offset_unit > 0) return conventions.float_offset_unit;
   float below = static_cast<float>(std::max(largest_z, 0.0));
   if (below > 0 && static_cast<double>(below) > largest_z) below = std::nextafter(below, 0.0f);
   return static_cast<long double>(std::nextafter(below, std::numeric_limits<float>::infinity())) - below;

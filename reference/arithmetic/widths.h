@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include <glm/glm.hpp>
@@ -22,7 +23,19 @@ inline double altitude(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 }
 
 /// Distance of a point from a triangle, 0 inside it [pixels].
-double distance_to_triangle(glm::dvec2 p, const std::array<glm::dvec2, 3>& c);
+inline double distance_to_triangle(glm::dvec2 p, const std::array<glm::dvec2, 3>& c) {
+  double nearest = std::numeric_limits<double>::infinity();
+  int left = 0, right = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 along = c[(i + 1) % 3] - c[i], to = p - c[i];
+    const double side = along.x * to.y - along.y * to.x, squared = glm::dot(along, along);
+    left += side >= 0, right += side <= 0;
+    const double share = squared > 0 ? std::clamp(glm::dot(to, along) / squared, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, glm::length(to - share * along));
+  }
+  const bool has_area = !(left == 3 && right == 3);
+  return has_area && (left == 3 || right == 3) ? 0 : nearest;
+}
 
 /// Calls visit({a, b, c}) for each three corners of a polygon.
 void each_piece(std::span<const glm::dvec2> polygon, auto visit) {
@@ -35,13 +48,37 @@ void each_piece(std::span<const glm::dvec2> polygon, auto visit) {
 
 /// Smallest altitude of the triangles of a polygon's corners that come within `margin` of the point [pixels]; infinite
 /// where none does.
-double thinnest_piece(std::span<const glm::dvec2> polygon, glm::dvec2 p, double margin);
+inline double thinnest_piece(std::span<const glm::dvec2> polygon, glm::dvec2 p, double margin) {
+  double out = std::numeric_limits<double>::infinity();
+  each_piece(polygon, [&](const std::array<glm::dvec2, 3>& c) {
+    const double height = altitude(c[0], c[1], c[2]);
+    if (height < out && distance_to_triangle(p, c) <= margin) out = height;
+  });
+  return out;
+}
 
 /// Widths of a polygon [pixels].
 struct Widths {
   double whole;   ///< the polygon's width: its smallest extent across any direction
   double pieces;  ///< the smallest altitude of any triangle of its corners
 };
-Widths widths(std::span<const glm::dvec2> p);
+inline Widths widths(std::span<const glm::dvec2> p) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Widths out{kNone, kNone};
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    const glm::dvec2 along = p[(a + 1) % p.size()] - p[a];
+    if (const double length = glm::length(along); length > 0) {
+      double extent = 0;
+      for (const glm::dvec2& corner : p) {
+        extent = std::max(extent, std::abs(along.x * (corner.y - p[a].y) - along.y * (corner.x - p[a].x)) / length);
+      }
+      out.whole = std::min(out.whole, extent);
+    }
+  }
+  each_piece(
+      p, [&](const std::array<glm::dvec2, 3>& c) { out.pieces = std::min(out.pieces, altitude(c[0], c[1], c[2])); });
+  if (!std::isfinite(out.whole)) out.whole = 0;
+  return out;
+}
 
 }  // namespace plumbline::math

@@ -38,6 +38,8 @@ struct Conventions {
   glm::dvec2 sample{0.5};
   /// r of a polygon offset, which OpenGL leaves open (2.1, 3.5.5), in depths of 24 and of 16 bits [codes].
   glm::dvec2 offset_unit{2};
+  /// r in depths of floats [window z]; 0: the step from a polygon's largest depth to the next float.
+  double float_offset_unit = 0;
   /// Fraction bits of window positions, which are snapped to 2^-bits pixel: 0 to 16; kFloat: positions are not snapped.
   int subpixel_bits = 8;
   /// Fraction bits of texture filters' weights; or kFloat.
@@ -176,6 +178,8 @@ void each_number_of_bits(Visit visit) {
 
 inline constexpr ConventionWords kSampleWords{"sample", "the sample's place in its pixel", false};
 inline constexpr ConventionWords kOffsetWords{"offset_unit", "a polygon offset's unit in codes of depth", true};
+inline constexpr ConventionWords kFloatOffsetWords{"float_offset_unit", "a polygon offset's unit in depths of floats",
+                                                   true};
 
 /// Whether the declared tie rule and grid settle which triangle owns a sample on an edge: a grid of 1/2 to 1/1024 pixel
 /// on which the sample lies, and positions rounded to the nearest place. (Roundings down and up do not settle it: they

@@ -29,6 +29,7 @@ const std::vector<Probe>& probes() {
       {learn_alpha_test, {"alpha_test"}},
       {learn_blending, {"blending"}},
       {learn_offset_unit, {kOffsetWords.name}},
+      {learn_float_offset_unit, {kFloatOffsetWords.name}},
       {learn_weights, {"texture_bits"}},
       {learn_levels, {"level_of_detail"}},
       {learn_magnification, {"magnified"}},

@@ -147,19 +147,26 @@ void learn_corners(Prober& prober) {
   prober.found(words, name_of(prober.learned.conventions.attribute_corners), evidence);
 }
 
+// Two flat triangles, one of each winding: counter-clockwise below the diagonal, clockwise above it.
 void learn_provoking_vertex(Prober& prober) {
   const ConventionWords words = words_of("provoking_vertex");
   Scene scene = probe_frame("provoking_vertex", 16, 16);
   constexpr float first = 0.2f, last = 1;
   const auto grey = [](float v) { return glm::vec4(glm::vec3(v), 1); };
-  const std::array<ProbeCorner, 3> triangle = {
-      {{{0, 0, 0.5}, grey(first)}, {{16, 0, 0.5}, grey(0.5f)}, {{0, 16, 0.5}, grey(last)}}};
-  add_triangles(scene, std::span(&triangle, 1)).shading = Shading::flat;
-  const float left = prober.draw(scene).color(4, 4).g;
-  const auto is = [&](float v) { return std::abs(left - v) < 1.5f / 255; };
-  const std::string evidence = fmt::format("a flat triangle of 0.2, 0.5 and 1 is drawn in {:.2g}", left);
-  if (!is(first) && !is(last)) return prober.fits_none(words, evidence);
-  prober.learned.conventions.provoking_vertex = is(last) ? C::Provoking::last : C::Provoking::first;
+  const auto of_corner = [&](double x, double y) {
+    return std::array<ProbeCorner, 3>{
+        {{{x, y, 0.5}, grey(first)}, {{16, 0, 0.5}, grey(0.5f)}, {{0, 16, 0.5}, grey(last)}}};
+  };
+  const std::array triangles = {of_corner(0, 0), of_corner(16, 16)};
+  add_triangles(scene, triangles).shading = Shading::flat;
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  const float left = color(4, 4).g, turned = color(12, 12).g;
+  const auto is = [](float drawn, float v) { return std::abs(drawn - v) < 1.5f / 255; };
+  std::string evidence = fmt::format("a flat triangle of 0.2, 0.5 and 1 is drawn in {:.2g}", left);
+  const bool agree = turned == 0 || is(turned, left);  // 0: it is not drawn
+  if (!agree) evidence += fmt::format(", a clockwise one in {:.2g}", turned);
+  if (!agree || (!is(left, first) && !is(left, last))) return prober.fits_none(words, evidence);
+  prober.learned.conventions.provoking_vertex = is(left, last) ? C::Provoking::last : C::Provoking::first;
   prober.found(words, name_of(prober.learned.conventions.provoking_vertex), evidence);
 }
 

@@ -331,35 +331,4 @@ void learn_depth_arithmetic(Prober& prober) {
   prober.found(words, name_of(c.depth_arithmetic), evidence);
 }
 
-// A rectangle with and without an offset of many units, in depths of 24 and of 16 bits.
-void learn_offset_unit(Prober& prober) {
-  C& c = prober.learned.conventions;
-  if (c.depth_format == C::Depth::z32f) return prober.open(kOffsetWords, "depths are floats, whose unit is their step");
-  for (const char* name : {"depth_range", "depth_format"}) {
-    if (prober.is_open(name)) return prober.open(kOffsetWords, fmt::format("{} is open", name));
-  }
-  std::string evidence;
-  glm::dvec2 units_of = c.offset_unit;
-  for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
-    const bool codes_of_16 =
-        c.depth_format == C::Depth::z16 || (format == DepthFormat::z16 && c.depth_format != C::Depth::z24);
-    const double units = codes_of_16 ? 14336 : 14336 * 256, scale = codes_of_16 ? 65535 : 16777215;
-    double left[2] = {0, 0};
-    for (const int moved : {0, 1}) {
-      Scene scene = at_depths(prober, "offset_unit", {0.75});
-      scene.frame.depth = format;
-      scene.draws[0].polygon_offset = {0, static_cast<float>(-units * moved)};
-      left[moved] = prober.draw_depths(scene)(1, 2);
-    }
-    const double codes = (left[0] - left[1]) * scale, unit = codes / units;
-    if (!(unit > 0.01))
-      return prober.fits_none(kOffsetWords, fmt::format("{} units move a depth by {:.0f} codes", units, codes));
-    (format == DepthFormat::z16 ? units_of.y : units_of.x) = std::round(unit * 1e4) / 1e4;
-    evidence += fmt::format("{}{} units move a depth of {} bits by {:.0f} codes", evidence.empty() ? "" : ", ", units,
-                            codes_of_16 ? 16 : 24, codes);
-  }
-  c.offset_unit = units_of;
-  prober.found(kOffsetWords, fmt::format("{:.4g}, {:.4g}", c.offset_unit.x, c.offset_unit.y), evidence);
-}
-
 }  // namespace plumbline::learn

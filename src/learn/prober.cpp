@@ -59,7 +59,7 @@ ConventionWords words_of(std::string_view name) {
   const auto take = [&](const ConventionWords& words, auto) {
     if (words.name == name) out = words;
   };
-  take(kSampleWords, nullptr), take(kOffsetWords, nullptr);
+  take(kSampleWords, nullptr), take(kOffsetWords, nullptr), take(kFloatOffsetWords, nullptr);
   each_choice(take);
   each_number_of_bits(take);
   if (!out) throw std::logic_error(fmt::format("no convention {}", name));

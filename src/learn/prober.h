@@ -91,6 +91,7 @@ void learn_provoking_vertex(Prober& prober);
 void learn_alpha_test(Prober& prober);
 void learn_blending(Prober& prober);
 void learn_offset_unit(Prober& prober);
+void learn_float_offset_unit(Prober& prober);
 void learn_weights(Prober& prober);
 void learn_levels(Prober& prober);
 void learn_magnification(Prober& prober);

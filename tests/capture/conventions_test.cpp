@@ -34,7 +34,7 @@ class ConventionsFile : public TestFolder {
 TEST_F(ConventionsFile, WhatIsWrittenIsReadBack) {
   C c;
   c.sample = {0, 0.25};
-  c.offset_unit = {1, 1.01};
+  c.offset_unit = {1, 1.01}, c.float_offset_unit = 0x1p-23;
   c.subpixel_bits = C::kFloat, c.texture_bits = 8;
   c.rows = C::Rows::from_top, c.tie_rule = C::TieRule::right_top, c.depth_range = C::DepthRange::one_to_zero;
   c.level_of_detail = C::LevelOfDetail::approximate, c.blending = C::Blending::in_codes;

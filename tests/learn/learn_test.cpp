@@ -209,7 +209,8 @@ TEST(Learn, WhatNoValueExplainsIsAFinding) {
 TEST(Learn, ARefusedProbeLeavesItsConventionsOpen) {
   for (const auto& [probe, names] : {std::pair("clipping", std::vector<std::string>{"clip_depth", "depth_planes"}),
                                      std::pair("provoking_vertex", std::vector<std::string>{"provoking_vertex"}),
-                                     std::pair("offset_unit", std::vector<std::string>{"offset_unit"})}) {
+                                     std::pair("offset_unit", std::vector<std::string>{"offset_unit"}),
+                                     std::pair("float_offset_unit", std::vector<std::string>{"float_offset_unit"})}) {
     OfAlteredScenes renderer;
     renderer.before = [refused = std::string("probe/") + probe](Scene& scene) {
       if (scene.name == refused) throw Unsupported("not drawn");

@@ -52,13 +52,5 @@ TEST(LearnTextures, CurvesAndOffsetsAreNoWeightsOfFewBits) {
   EXPECT_NE(says(test::moved_by_a_texels_part).find("no rounding"), std::string::npos);
 }
 
-TEST(LearnTextures, APolygonOffsetsUnitIsFound) {
-  OfAlteredScenes renderer;
-  renderer.before = [](Scene& scene) { scene = test::with_half_of_offsets(scene); };
-  C expected = ours();
-  expected.offset_unit = {1, 1};
-  EXPECT_EQ(learn(renderer).conventions, expected);
-}
-
 }  // namespace
 }  // namespace plumbline::learn

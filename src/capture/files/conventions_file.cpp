@@ -39,7 +39,7 @@ std::string text_array(std::string_view key, std::vector<std::string> texts) {
 Conventions read_conventions(const std::filesystem::path& path) {
   const JsonFile file(path);
   const JsonNode root = file.root();
-  std::vector<std::string_view> names = {kSampleWords.name, kOffsetWords.name};
+  std::vector<std::string_view> names = {kSampleWords.name, kOffsetWords.name, kFloatOffsetWords.name};
   each_choice([&](const ConventionWords& words, auto) { names.push_back(words.name); });
   each_number_of_bits([&](const ConventionWords& words, auto) { names.push_back(words.name); });
   std::vector<std::string_view> keys = names;
@@ -50,6 +50,7 @@ Conventions read_conventions(const std::filesystem::path& path) {
   Conventions out;
   if (const auto node = root.find("sample")) out.sample = node->vector<2>(0, 1);
   if (const auto node = root.find("offset_unit")) out.offset_unit = node->vector<2>(0, 65536);
+  if (const auto node = root.find("float_offset_unit")) out.float_offset_unit = node->number(0, 1);
   each_choice([&](const ConventionWords& words, auto member) {
     using Choice = std::remove_cvref_t<decltype(out.*member)>;
     if (const auto node = root.find(words.name)) out.*member = node->choice<Choice>(kNamesOf<Choice>);
@@ -73,9 +74,10 @@ Conventions read_conventions(const std::filesystem::path& path) {
 }
 
 std::string conventions_text(const Conventions& c) {
-  std::string out =
-      fmt::format("{{\"format\": \"{}\", \"version\": 1,\n \"sample\": [{}, {}],\n \"offset_unit\": [{}, {}]",
-                  kConventionsFormat, c.sample.x, c.sample.y, c.offset_unit.x, c.offset_unit.y);
+  std::string out = fmt::format(
+      "{{\"format\": \"{}\", \"version\": 1,\n \"sample\": [{}, {}],\n \"offset_unit\": [{}, {}],\n "
+      "\"float_offset_unit\": {}",
+      kConventionsFormat, c.sample.x, c.sample.y, c.offset_unit.x, c.offset_unit.y, c.float_offset_unit);
   each_number_of_bits([&](const ConventionWords& words, auto member) {
     const std::string text = bits_text(c.*member);
     out += fmt::format(",\n \"{}\": {}", words.name, c.*member == Conventions::kFloat ? "\"float\"" : text);

@@ -270,8 +270,9 @@ bool has_other_volume(const Conventions& conventions) { return conventions.clip_
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage) {
   if (stage <= Stage::clip) return stage == Stage::clip && has_other_volume(conventions);
   const auto is_moved = [](const Draw& draw) { return draw.polygon_offset.units != 0; };
-  if (stage >= Stage::depth && conventions.offset_unit != C().offset_unit && std::ranges::any_of(scene.draws, is_moved))
-    return true;
+  const bool is_other_unit =
+      conventions.offset_unit != C().offset_unit || conventions.float_offset_unit != C().float_offset_unit;
+  if (stage >= Stage::depth && is_other_unit && std::ranges::any_of(scene.draws, is_moved)) return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
 }

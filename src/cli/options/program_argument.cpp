@@ -210,6 +210,7 @@ bool is_opengls(const Conventions& conventions, std::string_view name) {
   each_number_of_bits(compare);
   compare(kSampleWords, &Conventions::sample);
   compare(kOffsetWords, &Conventions::offset_unit);
+  compare(kFloatOffsetWords, &Conventions::float_offset_unit);
   return out;
 }
 
