@@ -66,8 +66,10 @@ void learn_float_offset_unit(Prober& prober) {
   if (const char* name = open_of_offsets(prober))
     return prober.open(kFloatOffsetWords, fmt::format("{} is open", name));
   constexpr double kUnits = 0x1p19, kStep = 0x1p-24;  // of 3/4
-  const double large = moved_by(prober, "float_offset_unit", DepthFormat::z32f, 0.75, kUnits) / kUnits,
-               small = moved_by(prober, "float_offset_unit", DepthFormat::z32f, 0.1875, kUnits) / kUnits;
+  // Who has floats alone may refuse a frame that asks for them.
+  const DepthFormat format = c.depth_format == C::Depth::z32f ? DepthFormat::z24 : DepthFormat::z32f;
+  const double large = moved_by(prober, "float_offset_unit", format, 0.75, kUnits) / kUnits,
+               small = moved_by(prober, "float_offset_unit", format, 0.1875, kUnits) / kUnits;
   const auto is_near = [](double a, double b) { return std::abs(a - b) <= 1e-4 * b; };
   const std::string evidence = fmt::format("{} units move a depth of 3/4 by {:.4g}, one of 3/16 by {:.4g}", kUnits,
                                            large * kUnits, small * kUnits);
