@@ -56,8 +56,10 @@ struct Rounding {
     const double v = a.value * b.value;
     return {v, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error + roundings(std::abs(v))};
   }
+  // As a (1 - share) + b share, or as a + (b - a) share.
   Bounded mixed(Bounded a, Bounded b, Bounded share) const {
-    const double k = share.value, terms = std::abs(a.value * (1 - k)) + std::abs(b.value * k);
+    const double k = share.value, terms = std::max(std::abs(a.value * (1 - k)) + std::abs(b.value * k),
+                                                   std::abs(a.value) + std::abs((b.value - a.value) * k));
     return {a.value * (1 - k) + b.value * k, std::abs(1 - k) * a.error + std::abs(k) * b.error +
                                                  (std::abs(b.value - a.value) + a.error + b.error) * share.error +
                                                  roundings(terms)};

@@ -56,7 +56,7 @@ Number textured_channel(TextureFormat format, TextureEnvironment environment, bo
     return fragment;
   switch (environment) {
     case E::replace: return texel;
-    case E::decal: return format == F::rgb ? texel : by.mixed(fragment, texel, texel_alpha);
+    case E::decal: return by.mixed(fragment, texel, format == F::rgb ? Number{1} : texel_alpha);
     case E::blend:
       if (alpha && !intensity) break;
       return by.mixed(fragment, constant, texel);

@@ -53,11 +53,23 @@ TEST(BoundedNumbers, HoldWhatTheEndsComeToAndNoMore) {
   }
 }
 
+TEST(BoundedNumbers, HoldMixesInFloatByEitherForm) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> unit(0, 1);
+  const Rounding by{{3}};
+  for (int i = 0; i < 20000; ++i) {
+    const float a = unit(random), b = unit(random), k = i % 8 == 0 ? 1 : unit(random);
+    const Bounded exact = by.mixed({a, 0}, {b, 0}, {k, 0});
+    ASSERT_LE(std::abs(static_cast<double>(a + (b - a) * k) - exact.value), exact.error) << a << ' ' << b << ' ' << k;
+    ASSERT_LE(std::abs(static_cast<double>(a * (1 - k) + b * k) - exact.value), exact.error);
+  }
+}
+
 TEST(BoundedNumbers, CountEachResultsRounding) {
   const Rounding by{{3}};
   const double u3 = 3 * kFloatRounding;
   EXPECT_NEAR(by.product({2, 0}, {-4, 0}).error, 8 * u3, 1e-20);
-  EXPECT_NEAR(by.mixed({2, 0}, {-4, 0}, {0.25, 0}).error, 2.5 * u3, 1e-20) << "1.5 and -1";
+  EXPECT_NEAR(by.mixed({2, 0}, {-4, 0}, {0.25, 0}).error, 3.5 * u3, 1e-20) << "2 and -1.5";
   EXPECT_NEAR(by.clamped_sum({2, 0}, {-4, 0}).error, 2 * u3, 1e-20);
   EXPECT_EQ(by.clamped_sum({2, 0}, {-2, 0}).error, 0) << "nothing is rounded";
   EXPECT_GT(by.product({0x1p-100, 0}, {0x1p-30, 0}).error, kGradualUnderflow);
