@@ -51,6 +51,15 @@ bool stencil_under(const StencilFace& face, bool alive, bool passes_depth, std::
   return pipeline::stencil_test<float>(wrong, alive, passes_depth, at);
 }
 
+// Stencil ops of the value that is compared, which is the one held by the test's mask.
+bool stencil_of_masked(const StencilFace& face, bool alive, bool passes_depth, std::uint8_t* at) {
+  const auto masked = static_cast<std::uint8_t>(*at & face.mask);
+  std::uint8_t held = masked;
+  const bool passes = pipeline::stencil_test<float>(face, alive, passes_depth, &held);
+  if (held != masked) *at = static_cast<std::uint8_t>((*at & ~face.write_mask) | (held & face.write_mask));
+  return passes;
+}
+
 constexpr auto kOpsSwapped = [](StencilFace& face) { std::swap(face.pass, face.depth_fail); };
 constexpr auto kReferenceOnTheRight = [](StencilFace& face) { face.func = kSidesSwapped(face.func); };
 constexpr auto kNoMask = [](StencilFace& face) { face.mask = 0xff; };
@@ -192,6 +201,9 @@ constexpr std::array kMerge = {
           Stage::visibility, put<&Stages::stencil_test, stencil_under<kReferenceOnTheRight>>},
     Fault{"visibility.stencil_mask_unused", "stencil values are compared in all bits", Stage::visibility,
           put<&Stages::stencil_test, stencil_under<kNoMask>>},
+    Fault{"visibility.stencil_ops_of_masked",
+          "stencil ops take the value held by the test's mask, and lose its other bits", Stage::visibility,
+          put<&Stages::stencil_test, stencil_of_masked>},
     Fault{"visibility.stencil_write_mask_unused", "stencil ops change all bits", Stage::visibility,
           put<&Stages::stencil_test, stencil_under<kNoWriteMask>>},
     Fault{"visibility.stencil_saturates", "stencil values stop where they should wrap", Stage::visibility,
