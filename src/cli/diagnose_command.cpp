@@ -277,6 +277,7 @@ int diagnose_picture(const DiagnoseOptions& o) {
   const Scene scene = o.scene_arguments.load(o.scene);
   require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
   GivenFrame given;
+  given.conventions = undeclared();
   given.color = in_scenes_order(scene, read_image(o.picture));
   require_size(o.picture, given.color, scene);
   if (!o.depth.empty() && std::filesystem::path(o.depth).extension() != ".exr") {

@@ -188,6 +188,14 @@ bool is_declared(const std::string_view fault, const Conventions& conventions) {
          (fault == "depth.truncated" && conventions.depth_rounding == kDown);
 }
 
+// Whether conventions that are declared, and not open, show that all frames are without the fault.
+bool is_contradicted(const std::string_view fault, const Conventions& conventions) {
+  const bool of_rows = fault == "file.rows_reversed" || fault == "window.y_flipped",
+             of_depths = fault == "file.depth_of_ndc" || fault == "file.depth_reversed";
+  if (!(of_rows || of_depths) || conventions == undeclared()) return false;
+  return std::ranges::find(conventions.open, of_rows ? "rows" : "depth_range") == conventions.open.end();
+}
+
 }  // namespace
 
 bool is_of(const StageSet& stages, const KnownFault& f) {
@@ -221,7 +229,8 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
     out.push_back(
         {.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .of_stages = {name}});
   }
-  std::erase_if(out, [&](const KnownFault& f) { return is_of(given.right, f); });
+  std::erase_if(
+      out, [&](const KnownFault& f) { return is_of(given.right, f) || is_contradicted(f.name, given.conventions); });
   return out;
 }
 

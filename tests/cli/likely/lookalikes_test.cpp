@@ -19,7 +19,7 @@ Scene scene_of(std::string_view name) {
   return load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/").append(name), {});
 }
 
-GivenFrame drawn(const Scene& scene, const std::string& fault, const Conventions& conventions = {},
+GivenFrame drawn(const Scene& scene, const std::string& fault, const Conventions& conventions = undeclared(),
                  CutAt cut_at = CutAt::frame_sides) {
   const SceneByConventions seen(scene, conventions);
   Request request;
