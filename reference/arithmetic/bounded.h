@@ -56,7 +56,7 @@ struct Rounding {
     const double v = a.value * b.value;
     return {v, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error + roundings(std::abs(v))};
   }
-  // As a (1 - share) + b share, or as a + (b - a) share.
+  // Mix by either form: a (1 - share) + b share, or a + (b - a) share.
   Bounded mixed(Bounded a, Bounded b, Bounded share) const {
     const double k = share.value, terms = std::max(std::abs(a.value * (1 - k)) + std::abs(b.value * k),
                                                    std::abs(a.value) + std::abs((b.value - a.value) * k));

@@ -26,8 +26,9 @@ WindowCorners window_corners(const Projected& scene, const Triangle& t) {
   return out;
 }
 
-// Largest error(corners) of the pieces that come near the ray d, a piece being any three corners of an outline; infinite
-// where none does, or where one may have no area. Corners may be off by `reach`: terms and area by 4 reach / altitude.
+// Largest error(corners) of the pieces that come near the ray d, a piece being any three corners of an outline;
+// infinite where none does, or where one may have no area. Corners may be off by `reach`: terms and area by 4 reach /
+// altitude.
 template <class Error>
 double error_near(const Projected& scene, const Triangle& t, std::span<const glm::dvec2> outline, glm::dvec3 d,
                   Error error) {
@@ -46,8 +47,8 @@ double error_near(const Projected& scene, const Triangle& t, std::span<const glm
   return out < 0 ? kInfinity : out;
 }
 
-// Error of a plane in the pieces of a cut triangle: error_near(), or that of all pieces of such altitudes, of values of at
-// most 1, and that `slope` [1 / pixel], whichever is less.
+// Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and
+// depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel].
 template <class Error>
 double error_of_pieces(const Projected& scene, const Triangle& t, double slope, glm::dvec3 d,
                        const PieceAltitudes& altitudes, Error error) {

@@ -51,7 +51,7 @@ bool stencil_under(const StencilFace& face, bool alive, bool passes_depth, std::
   return pipeline::stencil_test<float>(wrong, alive, passes_depth, at);
 }
 
-// Stencil ops of the value that is compared, which is the one held by the test's mask.
+// Stencil ops on what the test compares: the value held, by the test's mask.
 bool stencil_of_masked(const StencilFace& face, bool alive, bool passes_depth, std::uint8_t* at) {
   const auto masked = static_cast<std::uint8_t>(*at & face.mask);
   std::uint8_t held = masked;

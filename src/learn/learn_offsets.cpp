@@ -13,7 +13,7 @@ using C = Conventions;
 
 namespace {
 
-// How far as many units of a polygon offset move a rectangle at a depth towards 0 [window z].
+// Displacement towards 0 of a rectangle at a depth, by a polygon offset of so many units [window z].
 double moved_by(Prober& prober, const std::string& name, DepthFormat format, double depth, double units) {
   double left[2] = {0, 0};
   for (const int moved : {0, 1}) {
@@ -36,7 +36,7 @@ const char* open_of_offsets(const Prober& prober) {
 
 }  // namespace
 
-// In depths of 24 and of 16 bits.
+// Units of depths of 24 and of 16 bits, in codes.
 void learn_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format == C::Depth::z32f) return prober.open(kOffsetWords, "depths are floats");
@@ -58,7 +58,7 @@ void learn_offset_unit(Prober& prober) {
   prober.found(kOffsetWords, fmt::format("{:.4g}, {:.4g}", c.offset_unit.x, c.offset_unit.y), evidence);
 }
 
-// In depths of floats, of which 3/4 has 4 times the step of 3/16.
+// Unit of depths of floats. The step of floats at 3/4 is 4 times that at 3/16.
 void learn_float_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format != C::Depth::z32f && c.depth_format != C::Depth::as_asked)
@@ -66,7 +66,7 @@ void learn_float_offset_unit(Prober& prober) {
   if (const char* name = open_of_offsets(prober))
     return prober.open(kFloatOffsetWords, fmt::format("{} is open", name));
   constexpr double kUnits = 0x1p19, kStep = 0x1p-24;  // of 3/4
-  // Who has floats alone may refuse a frame that asks for them.
+  // A renderer of floats alone may refuse a frame that asks for floats.
   const DepthFormat format = c.depth_format == C::Depth::z32f ? DepthFormat::z24 : DepthFormat::z32f;
   const double large = moved_by(prober, "float_offset_unit", format, 0.75, kUnits) / kUnits,
                small = moved_by(prober, "float_offset_unit", format, 0.1875, kUnits) / kUnits;

@@ -97,9 +97,9 @@ double of_steps(const WindowTriangle<double>& t, const Conventions& conventions)
   return edge_displacement(conventions.depth_arithmetic, high - low, most_x);
 }
 
-// Displacement of a triangle's edges in the candidate [pixels]: that by steps, and that by its grid, by which a corner is
-// moved by half a step in x and in y, at most; rounded down or up, by a whole step. Without a grid, an edge function in
-// float is off by 8 u of the largest coordinates.
+// Displacement of a triangle's edges in the candidate [pixels]: that by steps, and that by its grid, which moves a
+// corner by half a step in x and in y, at most; rounded down or up, by a whole step. Without a grid, an edge function
+// in float is off by 8 u of the largest coordinates.
 double moved(const WindowTriangle<double>& t, const Conventions& conventions) {
   const int bits = conventions.subpixel_bits;
   if (bits == Conventions::kFloat) {
@@ -111,7 +111,7 @@ double moved(const WindowTriangle<double>& t, const Conventions& conventions) {
   return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions);
 }
 
-// Whether a tie rule allows it that a sample on a shared edge is in one of its triangles, but not, or also, in the other.
+// Legality of a sample's membership in the two triangles that share its edge, by a tie rule.
 bool is_owned(bool in_one, bool in_other, Conventions::TieRule rule) {
   if (in_one != in_other) return true;
   return rule == (in_one ? Conventions::TieRule::inclusive : Conventions::TieRule::exclusive);
@@ -129,8 +129,8 @@ std::size_t edges_near(const std::array<glm::dvec2, 3>& corners, glm::dvec2 p, d
   return out;
 }
 
-// Fragments; those of samples on edges are ambiguous where open(triangle), except in none or in both of two triangles
-// that share the edge.
+// Fragments. Those of samples on edges are ambiguous where open(triangle), unless two triangles share the edge, and no
+// tie rule has it so (is_owned()).
 template <class Open>
 Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions, glm::dvec2 sample, Open open) {
@@ -143,8 +143,8 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
     return std::ranges::binary_search(candidate.covered, draw_order(c), {},
                                       [](const Covered& o) { return draw_order(o); });
   };
-  // Number of the triangle's edges that pass p as near as they may be moved, or as near as both sides may move them. By
-  // one grid both sides snap a corner to one place.
+  // Number of the triangle's edges within reach of p: as far as the candidate may move them, and, by_both, exact, too.
+  // By one grid both sides snap a corner to one place.
   const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
     const WindowTriangle<double>& t = candidate.triangles[triangle];
     if (by_one_grid && !has_corner_between_places(t, conventions))

@@ -67,10 +67,11 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
 /// compare_covered() for a candidate whose tie rule or grid is not the dialect's: an extra or missing fragment is
 /// ambiguous where its sample is no farther from an edge of the candidate's triangle than the edge may be moved by
-/// snapping to the declared grid (of 1/256 pixel: the same as exact's; none: by rounding in float), by exact's snapping to
-/// 1/256 pixel, and by stepping in float where depth_arithmetic says so, together. A difference all the same, unless the
-/// tie rule has it so: a sample in both or in neither of two triangles, on the edge that these share (shared_edges.h) and
-/// beside none of their others. `sample`: sample position [pixels from the pixel's corner of smallest coordinates].
+/// snapping to the declared grid (of 1/256 pixel: the same as exact's; none: by rounding in float), by exact's snapping
+/// to 1/256 pixel, and by stepping in float where depth_arithmetic says so, together. But a sample on an edge that two
+/// triangles share (shared_edges.h), and beside none of their others, is in exactly one of them: else it is a
+/// difference, unless the tie rule is inclusive (both) or exclusive (neither). `sample`: sample position [pixels from the pixel's
+/// corner of smallest coordinates].
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
                                          const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5));
 /// compare_covered() for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Fragments at

@@ -21,9 +21,9 @@ class SharedEdges {
   /// Edges between the corners as they are, or as they are snapped.
   SharedEdges(std::span<const WindowTriangle<double>> triangles, bool snapped);
 
-  /// The triangle [index] beyond the edge of triangle `t` that `p_win` lies on, by exact arithmetic, between its ends.
-  /// None if p_win lies on no edge, or unless exactly one triangle has an edge of the same ends and lies on the other
-  /// side of it. OpenGL 2.1, section 3.5.1: a sample on such an edge is in exactly one of the two.
+  /// The triangle [index] on the other side of an edge of triangle `t`, where p_win lies on that edge, by exact
+  /// arithmetic, between its ends. None: p_win lies on no edge, or two triangles do not share it alone. OpenGL 2.1,
+  /// 3.5.1: a sample there is in exactly one of the two.
   std::optional<std::uint32_t> beyond(std::uint32_t t, glm::dvec2 p_win) const;
 
  private:

@@ -139,10 +139,10 @@ constexpr std::array kFragmentCauses = {
       change_all(s.draws, [](Draw& d) { d.depth_func = turned(d.depth_func); });
     }>(S::visibility, "visibility.reversed_with_clear",
        "the depth test is the other way round, and so is the value that depths are cleared to"),
-    given<[](Draw& d) { d.depth_func = DepthFunc::always; }>(S::visibility, "visibility.no_depth_test",
-                                                             "whatever is drawn last wins: depths are not tested"),
     given<[](Draw& d) { d.merge.depth_mask = true; }>(S::visibility, "visibility.depth_mask_ignored",
                                                       "depths are written that the draw's mask keeps out"),
+    given<[](Draw& d) { d.depth_func = DepthFunc::always; }>(S::visibility, "visibility.no_depth_test",
+                                                             "whatever is drawn last wins: depths are not tested"),
     given<[](Draw& d) {
       if (d.alpha_test && d.alpha_test->func == CompareFunc::greater) d.alpha_test->func = CompareFunc::greater_equal;
     }>(S::visibility, "visibility.alpha_at_reference",

@@ -51,8 +51,7 @@ TEST_F(Fragments, CoveredEqualOnesPass) {
 
 TEST_F(Fragments, CoveredOnAnEdgeIsOpenToADeclaredTieRule) {
   for (WindowTriangle<double>& t : records.triangles) {
-    for (auto& v : t.v)
-      v.p_win.x += 0.5, v.p_win.y += 0.5, v.snapped += kSubpixel / 2;  // the third side runs through (7, 3)'s centre
+    for (auto& v : t.v) v.p_win += glm::dvec3(0.5, 0.5, 0), v.snapped += kSubpixel / 2;  // side 3: centre of (7, 3)
   }
   const auto with = [&](std::uint16_t x, std::uint16_t y) {
     Records<double> out = records;
