@@ -137,10 +137,10 @@ void judge_all(const std::vector<Scene>& scenes, CheckRules& rules, JudgedRun& r
   const bool all_rows = o.verbose || scenes.size() == 1;
   bool has_head = false;
   const auto print = [&](const check::SceneVerdict& verdict) {
-    const bool line = !all_rows && verdict.failure.empty();
-    if (!line && !has_head) fmt::print("{}", report::table_head());
-    has_head |= !line;
-    fmt::print("{}", line ? report::scene_line(verdict) : report::table_rows(verdict));
+    const bool is_line = !all_rows && verdict.failure.empty();
+    if (!is_line && !has_head) fmt::print("{}", report::table_head());
+    has_head |= !is_line;
+    fmt::print("{}", is_line ? report::scene_line(verdict) : report::table_rows(verdict));
     std::fflush(stdout);
   };
   const auto take = [&](JudgedScene judged) {

@@ -70,8 +70,8 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// snapping to the declared grid (of 1/256 pixel: the same as exact's; none: by rounding in float), by exact's snapping
 /// to 1/256 pixel, and by stepping in float where depth_arithmetic says so, together. But a sample on an edge that two
 /// triangles share (shared_edges.h), and beside none of their others, is in exactly one of them: else it is a
-/// difference, unless the tie rule is inclusive (both) or exclusive (neither). `sample`: sample position [pixels from the pixel's
-/// corner of smallest coordinates].
+/// difference, unless the tie rule is inclusive (both) or exclusive (neither). `sample`: sample position [pixels from
+/// the pixel's corner of smallest coordinates].
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
                                          const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5));
 /// compare_covered() for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Fragments at
