@@ -23,16 +23,41 @@ constexpr std::array<Eye, kLooks> kEyes = {{{1.5f, 1.5, 0x1p-20, true},
                                             {0.5f, kUnseen, 0},
                                             {kUnseen, 0.25, 0}}};
 
-bool are_colors_apart(const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i, const Eye& eye) {
-  return colors_apart(other.color.values()[i], given.color.values()[i], eye.codes, eye.by_alpha);
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+// Largest difference of r, g and b, clamped to [0,1]; NaN where one is NaN.
+float rgb_distance(const glm::vec4& a, const glm::vec4& b) {
+  const glm::vec4 off = glm::abs(glm::clamp(a, 0.0f, 1.0f) - glm::clamp(b, 0.0f, 1.0f));
+  return std::isnan(off.x + off.y + off.z) ? kNaN : std::max({off.x, off.y, off.z});
 }
 
-bool are_depths_apart(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i,
-                      const Eye& eye) {
-  if (given.depth.empty() || given.depth.size() != other.depth.size()) return false;
+// Distances of a pixel in two frames; NaN where a number is NaN.
+struct Distance {
+  float rgb, alpha;        // of colours clamped to [0,1]: the largest of r, g and b
+  double depth, step;      // window z; the depth format's step there
+  bool has_depth = false;  // both frames have depths
+
+  bool is_color_beyond(const Eye& eye) const {
+    const float most = eye.codes / 255;
+    return !(rgb <= most) || (eye.by_alpha && !(alpha <= most));
+  }
+  bool is_depth_beyond(const Eye& eye) const {
+    return has_depth && !(depth <= std::max(eye.steps * step, eye.float_depth));
+  }
+};
+
+Distance distance(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i) {
+  const glm::vec4 a = given.color.values()[i], b = other.color.values()[i];
+  Distance out{.rgb = rgb_distance(a, b),
+               .alpha = std::abs(std::clamp(a.w, 0.0f, 1.0f) - std::clamp(b.w, 0.0f, 1.0f)),
+               .depth = 0,
+               .step = 0};
+  if (given.depth.empty() || given.depth.size() != other.depth.size()) return out;
   const double z = other.depth.values()[i];
-  const double most = std::max(eye.steps * depth_step(format, z), eye.float_depth);
-  return !(std::abs(given.depth.values()[i] - z) <= most);
+  out.has_depth = true;
+  out.depth = std::abs(given.depth.values()[i] - z);
+  out.step = depth_step(format, z);
+  return out;
 }
 
 // Whether a pixel is the same number by number, which most are. NaN is not.
@@ -44,30 +69,25 @@ bool is_same(const ColorAndDepth& given, const ColorAndDepth& other, std::size_t
 
 }  // namespace
 
-bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes, bool by_alpha) {
-  const glm::vec4 off = glm::abs(glm::clamp(a, 0.0f, 1.0f) - glm::clamp(b, 0.0f, 1.0f));
-  const float most = codes / 255;
-  const bool near = off.x <= most && off.y <= most && off.z <= most && !std::isnan(b.x + b.y + b.z);
-  return !near || (by_alpha && (!(off.w <= most) || std::isnan(b.w)));
-}
+bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes) { return !(rgb_distance(a, b) <= codes / 255); }
 
 bool is_clear_depth(const FrameFormat& format, double z) { return std::abs(z - format.clear_depth) <= 1.0 / 65535; }
 
 FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours)
-    : format_(format), given_(given), ours_(ours) {
+    : format_(format), given_(given), ours_(ours), counted_(given.color.size()) {
   const auto holds = [&](const Plane<std::uint8_t>& legal, std::size_t i) {
     return legal.size() == given.color.size() && legal.values()[i] != 0;
   };
-  for (std::size_t look = 0; look < kLooks; ++look) {
-    const Eye& eye = kEyes[look];
-    const Plane<std::uint8_t>& legal = is_of_color(static_cast<Look>(look)) ? given.is_legal_color : given.is_legal;
-    counted_[look].resize(given.color.size(), whole);
-    for (std::size_t i = 0; i < given.color.size(); ++i) {
-      const bool is_far = are_depths_apart(format, given, ours, i, eye);
+  for (std::size_t i = 0; i < given.color.size(); ++i) {
+    const Distance from_ours = distance(format, given, ours, i);
+    for (std::size_t look = 0; look < kLooks; ++look) {
+      const Eye& eye = kEyes[look];
+      const Plane<std::uint8_t>& legal = is_of_color(static_cast<Look>(look)) ? given.is_legal_color : given.is_legal;
+      const bool is_far = from_ours.is_depth_beyond(eye);
       if (holds(legal, i)) {
-        if (is_far || are_colors_apart(given, ours, i, eye)) counted_[look][i] = passed_over;
+        if (is_far || from_ours.is_color_beyond(eye)) counted_[i][look] = passed_over;
       } else if (is_far && holds(given.is_legal_depth, i)) {
-        counted_[look][i] = by_color;
+        counted_[i][look] = by_color;
       }
     }
   }
@@ -77,11 +97,11 @@ Apart FramesApart::from(const ColorAndDepth& frame) const {
   Apart out{};
   for (std::size_t i = 0; i < given_.color.size(); ++i) {
     if (is_same(given_, frame, i)) continue;
+    const Distance there = distance(format_, given_, frame, i);
     for (std::size_t look = 0; look < kLooks; ++look) {
       const Eye& eye = kEyes[look];
-      const Counted counted = counted_[look][i];
-      const bool is_apart = are_colors_apart(given_, frame, i, eye) ||
-                            (counted == whole && are_depths_apart(format_, given_, frame, i, eye));
+      const Counted counted = counted_[i][look];
+      const bool is_apart = there.is_color_beyond(eye) || (counted == whole && there.is_depth_beyond(eye));
       if (counted != passed_over && is_apart) ++out[look];
     }
   }
@@ -90,13 +110,14 @@ Apart FramesApart::from(const ColorAndDepth& frame) const {
 
 Apart FramesApart::against(const ColorAndDepth& frame) const {
   Apart out{};
-  for (std::size_t look = 0; look < kLooks; ++look) {
-    const Eye& eye = kEyes[look];
-    const auto are_apart = [&](const ColorAndDepth& a, const ColorAndDepth& b, std::size_t i) {
-      return are_colors_apart(a, b, i, eye) || are_depths_apart(format_, a, b, i, eye);
-    };
-    for (std::size_t i = 0; i < given_.color.size(); ++i) {
-      if (counted_[look][i] == passed_over && are_apart(given_, frame, i) && are_apart(ours_, frame, i)) ++out[look];
+  for (std::size_t i = 0; i < given_.color.size(); ++i) {
+    if (std::ranges::find(counted_[i], passed_over) == counted_[i].end()) continue;
+    const Distance from_given = distance(format_, given_, frame, i), from_ours = distance(format_, ours_, frame, i);
+    for (std::size_t look = 0; look < kLooks; ++look) {
+      const auto is_beyond = [&](const Distance& d) {
+        return d.is_color_beyond(kEyes[look]) || d.is_depth_beyond(kEyes[look]);
+      };
+      if (counted_[i][look] == passed_over && is_beyond(from_given) && is_beyond(from_ours)) ++out[look];
     }
   }
   return out;

@@ -44,8 +44,8 @@ constexpr bool is_fine(Look look) { return look >= kFineColor; }
 /// Number of pixels that differ, by Look.
 using Apart = std::array<std::size_t, kLooks>;
 
-/// Whether r, g or b (a, too, if asked), clamped to [0,1], differ by more than `codes` [1/255], or are NaN in b.
-bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes, bool by_alpha = false);
+/// Whether r, g or b, clamped to [0,1], differ by more than `codes` [1/255], or one is NaN.
+bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes);
 
 /// Whether a depth is the clear depth, within a code of 16 bits.
 bool is_clear_depth(const FrameFormat& format, double z);
@@ -64,7 +64,7 @@ class FramesApart {
   const GivenFrame& given_;
   const ColorAndDepth& ours_;
   enum Counted : std::uint8_t { whole, by_color, passed_over };
-  std::array<std::vector<Counted>, kLooks> counted_;
+  std::vector<std::array<Counted, kLooks>> counted_;  // of each pixel
 };
 
 }  // namespace plumbline::cli
