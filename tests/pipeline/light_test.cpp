@@ -169,6 +169,17 @@ TEST_F(PipelineLight, ShininessZeroIsOneWhereverTheLightReaches) {
   EXPECT_EQ(lit().r, 0.5f);
 }
 
+// 1000^128 is beyond double. OpenGL leaves overflow open (2.1, 2.1.1); ours is the largest number, and never a NaN.
+TEST_F(PipelineLight, APowerBeyondFloatLeavesTheOtherTerms) {
+  scene_.lights[0].specular = glm::vec3(1);
+  scene_.lights[0].diffuse = {0, 0.0004f, 0};
+  draw_.material = {glm::vec4(0), {0, 1, 0, 1}, {0.5f, 0, 0, 1}, glm::vec4(0), 128};
+  vertex_.n_eye = {0, 0, 1000};
+  EXPECT_EQ(lit().r, 1);
+  EXPECT_NEAR(lit().g, 0.4, 1e-6) << "times a specular term of 0";
+  EXPECT_EQ(lit().b, 0);
+}
+
 TEST_F(PipelineLight, ANormalThatFacesAwayHasTheAmbientTermAlone) {
   scene_.lights[0] = {Light::Kind::directional, {0, 0, 1}, {0.125f, 0.125f, 0.125f}, glm::vec3(1), glm::vec3(1)};
   draw_.material = {glm::vec4(1), glm::vec4(1), glm::vec4(1), glm::vec4(0), 0};

@@ -58,6 +58,15 @@ TEST_F(Lamp, SpecularByTheHalfVectorOfAnInfiniteViewer) {
   expect_near(color({-0.6, 0, 0.8}), {0, 0, 0, 0});
 }
 
+// 1000^128 is beyond double; OpenGL leaves overflow open (2.1, 2.1.1).
+TEST_F(Lamp, APowerBeyondDoubleLeavesTheOtherTerms) {
+  material().diffuse = {0, 0.5f, 0, 1};
+  material().specular = {0.5f, 0, 0, 0};
+  material().shininess = 128;
+  scene.lights[0].diffuse = {0, 0x1p-9f, 0};
+  expect_near(color({0, 0, 1000}), {1, 1000.0 / 1024, 0, 1});
+}
+
 TEST_F(Lamp, ZeroToTheZeroIsOne) {
   material().specular = {0.5f, 0, 0, 0};
   material().shininess = 0;
