@@ -33,7 +33,8 @@ double x_not_advanced(glm::dvec2 lower, glm::dvec2 upper, int row) {
   return x_at_row(lower, upper, row) + (begin - first * kSubpixel) * slope;
 }
 
-// Part that is left out: the row below the middle corner, or the one above it; the first or the last pixel of each span.
+// Part that is left out: the row below the middle corner, or the one above it; the first or the last pixel of each
+// span.
 enum class Lost { none, below_middle, above_middle, first_pixels, last_pixels };
 
 bool is_lost(Lost lost, const std::array<double, 3>& corners_y, int row) {

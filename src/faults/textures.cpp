@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "faults/lists.h"
 #include "faults/variants.h"
@@ -95,14 +96,23 @@ FilteredTexel<float> levels_swapped(const TextureSetup& t, const TexCoords<float
   return out;
 }
 
-// The level below lambda alone, where two are mixed.
-FilteredTexel<float> one_level(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+// Texel of that level by the minification filter, whatever lambda is.
+Color<float> minified(const TextureSetup& t, const TexCoords<float>& at, float level) {
+  TextureSetup never_magnified = t;
+  never_magnified.c = -1;
+  return pipeline::sample<float>(never_magnified, at, level);
+}
+
+// The level below lambda, where the minification filter is one of `filters`.
+template <MinFilter... filters>
+FilteredTexel<float> level_below(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   FilteredTexel<float> out = pipeline::texture<float>(t, at, g);
-  const bool mixes =
-      t.sampler.min == MinFilter::nearest_mipmap_linear || t.sampler.min == MinFilter::linear_mipmap_linear;
-  if (mixes && out.lod > t.c) out.color = pipeline::sample<float>(t, at, std::max(std::floor(out.lod), 0x1p-10f));
+  const bool by_filter = ((t.sampler.min == filters) || ...);
+  if (by_filter && out.lod > t.c) out.color = minified(t, at, std::floor(out.lod));
   return out;
 }
+constexpr auto one_level = level_below<MinFilter::nearest_mipmap_linear, MinFilter::linear_mipmap_linear>;
+constexpr auto levels_floored = level_below<MinFilter::nearest_mipmap_nearest, MinFilter::linear_mipmap_nearest>;
 
 // A linear filter's weights along s and t exchanged, at the base level.
 FilteredTexel<float> weights_exchanged(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
@@ -172,6 +182,14 @@ pipeline::Shaded fog_near(const pipeline::Surface& surface, bool front, const Te
   return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes).color, 1 - f, f);
 }
 
+// Linear fog whose factor is above 1 before its start, and below 0 beyond its end.
+pipeline::Shaded fog_unclamped(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
+  const std::optional<Fog>& fog = surface.draw->fog;
+  if (!fog || fog->mode != Fog::Mode::linear) return {pipeline::shade<float>(surface, front, attributes)};
+  const float f = (fog->end - std::abs(attributes[Varying::position].b)) / (fog->end - fog->start);
+  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes).color, f, 1 - f);
+}
+
 constexpr std::array kTextures = {
     Fault{"texture.t_flipped", "textures are upside down", Stage::texture, put<&Stages::texture, flipped_t>},
     Fault{"texture.s_for_t", "s and t change places", Stage::texture, put<&Stages::texture, s_for_t>},
@@ -199,6 +217,8 @@ constexpr std::array kTextures = {
           put<&Stages::texture, levels_doubled>, "bochs-emu/Bochs#222"},
     Fault{"texture.one_level", "of two levels that should be mixed, the finer is taken", Stage::texture,
           put<&Stages::texture, one_level>},
+    Fault{"texture.levels_floored", "of two levels the finer is taken where the nearer should be", Stage::texture,
+          put<&Stages::texture, levels_floored>},
     Fault{"texture.weights_exchanged", "a linear filter's weights along s and t change places", Stage::texture,
           put<&Stages::texture, weights_exchanged>},
     Fault{"texture.levels_swapped", "of two levels mixed, each gets the other's share", Stage::texture,
@@ -214,6 +234,8 @@ constexpr std::array kTextures = {
           put<&Stages::shade, fog_added>, "godotengine/godot#12454"},
     Fault{"shade.fog_near", "fog is thick near the eye, and thin far away", Stage::shade,
           put<&Stages::shade, fog_near>},
+    Fault{"shade.fog_unclamped", "the factor of linear fog is not clamped to [0, 1]", Stage::shade,
+          put<&Stages::shade, fog_unclamped>},
 };
 
 }  // namespace
