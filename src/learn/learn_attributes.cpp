@@ -79,7 +79,7 @@ void learn_clipping(Prober& prober) {
 void learn_interpolation(Prober& prober) {
   const ConventionWords words = words_of("interpolation");
   const C& c = prober.learned.conventions;
-  if (prober.is_open("color_encoding")) return prober.open(words, "the encoding of colours is open");
+  if (prober.lacks(words, {"color_encoding"})) return;
   if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
   Scene scene = probe_frame("interpolation", kFrameSize, kFrameSize);
   scene.projection = Perspective{90, 1, 100};
@@ -112,8 +112,8 @@ void learn_corners(Prober& prober) {
   const ConventionWords words = words_of("attribute_corners");
   const C& c = prober.learned.conventions;
   if (c.subpixel_bits == C::kFloat) return prober.found(words, "as_they_are", "positions are not snapped");
-  if (prober.is_open("color_rounding") || prober.is_open("sample") || c.sample != glm::dvec2(0.5) ||
-      c.color_encoding != C::Encoding::linear)
+  if (prober.lacks(words, {"color_rounding", "sample"})) return;
+  if (c.sample != glm::dvec2(0.5) || c.color_encoding != C::Encoding::linear)
     return prober.open(words, "another sample or encoding of colours hides it");
   const double share = c.subpixel_rounding == C::Rounding::down ? 0.98
                        : c.subpixel_rounding == C::Rounding::up ? -0.98

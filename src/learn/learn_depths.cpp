@@ -309,9 +309,7 @@ void count(Prober& prober, glm::ivec2 size, const std::vector<SlopedTriangle>& t
 void learn_depth_arithmetic(Prober& prober) {
   const ConventionWords words = words_of("depth_arithmetic");
   C& c = prober.learned.conventions;
-  for (const char* name : {"depth_format", "depth_rounding"}) {
-    if (prober.is_open(name)) return prober.open(words, fmt::format("{} is open", name));
-  }
+  if (prober.lacks(words, {"depth_format", "depth_rounding"})) return;
   constexpr int kFinest = 10;  // places at multiples of 2^-10 pixel are exact (probe_scene.h)
   // Snapping does not move corners on the grid; off the grid, edge equations in float lose more.
   const int bits = c.depth_corners != C::DepthCorners::as_they_are && c.subpixel_bits != C::kFloat

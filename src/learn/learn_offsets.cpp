@@ -26,21 +26,13 @@ double moved_by(Prober& prober, const std::string& name, DepthFormat format, dou
   return left[0] - left[1];
 }
 
-// The name of a convention that is open, and that offsets are learned by; or null.
-const char* open_of_offsets(const Prober& prober) {
-  for (const char* name : {"depth_range", "depth_format"}) {
-    if (prober.is_open(name)) return name;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 // Units of depths of 24 and of 16 bits, in codes.
 void learn_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format == C::Depth::z32f) return prober.open(kOffsetWords, "depths are floats");
-  if (const char* name = open_of_offsets(prober)) return prober.open(kOffsetWords, fmt::format("{} is open", name));
+  if (prober.lacks(kOffsetWords, {"depth_range", "depth_format"})) return;
   std::string evidence;
   glm::dvec2 units_of = c.offset_unit;
   for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
@@ -63,8 +55,7 @@ void learn_float_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format != C::Depth::z32f && c.depth_format != C::Depth::as_asked)
     return prober.open(kFloatOffsetWords, "depths have codes");
-  if (const char* name = open_of_offsets(prober))
-    return prober.open(kFloatOffsetWords, fmt::format("{} is open", name));
+  if (prober.lacks(kFloatOffsetWords, {"depth_range", "depth_format"})) return;
   constexpr double kUnits = 0x1p19, kStep = 0x1p-24;  // of 3/4
   // A renderer of floats alone may refuse a frame that asks for floats.
   const DepthFormat format = c.depth_format == C::Depth::z32f ? DepthFormat::z24 : DepthFormat::z32f;

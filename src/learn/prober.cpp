@@ -48,6 +48,13 @@ bool Prober::is_open(std::string_view name) const {
   return std::ranges::find(learned.conventions.open, name) != learned.conventions.open.end();
 }
 
+bool Prober::lacks(const ConventionWords& words, std::initializer_list<std::string_view> conventions) {
+  const auto lacking = std::ranges::find_if(conventions, [&](std::string_view name) { return is_open(name); });
+  if (lacking == conventions.end()) return false;
+  open(words, fmt::format("{} is open", *lacking));
+  return true;
+}
+
 void Prober::fits_none(const ConventionWords& words, const std::string& evidence) {
   open(words, evidence);
   learned.rows.back().value = "none fits";

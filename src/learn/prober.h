@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -50,6 +51,8 @@ class Prober {
   /// Adds a row "none fits", and a finding: no value of the convention explains what the renderer shows.
   void fits_none(const ConventionWords& words, const std::string& evidence);
   bool is_open(std::string_view name) const;
+  /// Whether a convention is open that the probe of `words` goes by; then adds the row "open".
+  bool lacks(const ConventionWords& words, std::initializer_list<std::string_view> conventions);
   /// Adds a finding that belongs to no single convention.
   void unexplained(std::string finding) { learned.conventions.unexplained.push_back(std::move(finding)); }
 
