@@ -12,8 +12,8 @@ namespace plumbline::math {
 /// (capture/by_conventions.h).
 Projected project(const Scene& scene, const Conventions& conventions = {});
 
-/// Error by float arithmetic of the coordinates (X, Y, z_clip, W) of the triangle's point at the ray d, which lies in the
-/// triangle. (Derived in project.cpp.)
+/// Error by float arithmetic of the coordinates (X, Y, z_clip, W) of the triangle's point at the ray d, which lies in
+/// the triangle. (Derived in project.cpp.)
 glm::dvec4 clip_error(const Projected& scene, const Triangle& triangle, glm::dvec3 d);
 /// Displacement of the triangle's outline near the window point d, per axis [pixels]. `error`: clip_error() there; `w`:
 /// the triangle's clip w there.
@@ -21,8 +21,8 @@ glm::dvec2 float_displacement(const Projected& scene, const glm::dvec4& error, g
 /// Displacement of a corner by float arithmetic, per axis [pixels]; infinite where the corner is beside or behind the
 /// eye.
 glm::dvec2 corner_displacement(const Projected& scene, const Corner& corner);
-/// delta: the length of float_displacement() by the largest error of any of the triangle's points, plus the displacement
-/// by snapping [pixels].
+/// delta: the length of float_displacement() by the largest error of any of the triangle's points, plus the
+/// displacement by snapping [pixels].
 double displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
 
 /// A piece of a segment a + t (b - a), t in [from, to]; empty if from > to.

@@ -10,8 +10,8 @@ namespace plumbline::math {
 
 namespace {
 
-/// Sets the depth interval in the window, from that of the plane's z_view: two further roundings, unless the depth range
-/// is [0,1], whose rounding is counted already. `in_float`: error_in_float().
+/// Sets the depth interval in the window, from that of the plane's z_view: two further roundings, unless the depth
+/// range is [0,1], whose rounding is counted already. `in_float`: error_in_float().
 void set_window_depth(const Triangle& t, bool clamps, const PixelDepth& plane, double lo, double hi, double weight,
                       double in_float, PixelHit& out) {
   const double moved = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
@@ -46,8 +46,8 @@ bool is_cut_off(const PixelSite& site, double delta) {
   return z < -most || z > 1 + most;
 }
 
-/// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane may be
-/// snapped alike, by the plane's own error where depth_corners are as they are; plus the corners' depth error.
+/// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane may
+/// be snapped alike, by the plane's own error where depth_corners are as they are; plus the corners' depth error.
 void set_depth(const PixelSite& site, PixelHit& out) {
   const Projected& scene = site.scene;
   const Triangle& t = site.t;

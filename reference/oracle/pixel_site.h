@@ -50,13 +50,14 @@ class PixelSite {
   double snap_weight(bool certain) const;
   /// Whether snapping may turn over the triangle, or the piece of it that covers the pixel.
   bool may_show_either_face(bool certain) const;
-  /// Whether snapping may turn over the piece that covers the pixel; the piece's plane then goes through snapped corners.
+  /// Whether snapping may turn over the piece that covers the pixel; the piece's plane then goes through snapped
+  /// corners.
   bool may_turn_over(bool certain) const { return !certain && (t.cut || t.thin); }
   /// An attribute at the pixel's centre, with its bound, by the renderer's interpolation; extrapolated beyond the
   /// triangle's border, as renderers do. `corners`: the attribute at the corners.
   BoundedFour attribute(const std::array<BoundedFour, 3>& corners, bool certain) const;
-  /// Relative error of a renderer's slopes of attributes: corners displaced by float arithmetic or snapping tilt a plane
-  /// by the displacement over its altitude; w adds its own error, the evaluation 16 u.
+  /// Relative error of a renderer's slopes of attributes: corners displaced by float arithmetic or snapping tilt a
+  /// plane by the displacement over its altitude; w adds its own error, the evaluation 16 u.
   double slopes_off() const;
 
  private:

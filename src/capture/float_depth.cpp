@@ -128,8 +128,8 @@ double attribute_error(double shares, double most) {
 
 // A triangle of altitude h has A >= h L, L its longest side, at most the window's diagonal D: no less than h^2. Depths
 // are at most 1, their gradient g at most 2 / h. Products of differences are at most L D, those of positions at most 4
-// times the window's area. A plane's differences of depths are at most g L, so that its gradient is off by 3 sqrt(2) g L
-// / h or less (both components together), over a distance of at most D.
+// times the window's area. A plane's differences of depths are at most g L, so that its gradient is off by 3 sqrt(2) g
+// L / h or less (both components together), over a distance of at most D.
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope,
                              glm::dvec2 window) {
   using enum Conventions::DepthArithmetic;

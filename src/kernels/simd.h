@@ -262,7 +262,8 @@ inline SimdWide power_of_two(SimdWide n) {
   return {of(biased.low), of(biased.high)};
 }
 
-// Four floats of one lane, or two integers of two lanes, are one block of 128 bits. of_blocks(): block(0), block(4), ...
+// Four floats of one lane, or two integers of two lanes, are one block of 128 bits. of_blocks(): block(0), block(4)
+// and so on.
 inline constexpr hn::FixedTag<float, 4> kBlockFloats{};
 inline constexpr hn::FixedTag<std::int32_t, 4> kBlockInts{};
 inline constexpr hn::FixedTag<std::int32_t, 2> kTwoInts{};

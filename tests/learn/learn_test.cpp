@@ -313,7 +313,8 @@ TEST(Learn, BlendingShowsByEitherFactorOfAlpha) {
   EXPECT_EQ(found.blending, C::Blending::in_float);
 }
 
-// Mixes of texels in codes: truncated each time they are below the exact ones; rounded, they are like few bits' weights.
+// Mixes of texels in codes: truncated each time they are below the exact ones; rounded, they are like few bits'
+// weights.
 TEST(Learn, MixesThatTruncateAreNoWeightsOfFewBits) {
   const auto found = [](double most_above) {
     OfAlteredScenes coarse;

@@ -16,10 +16,10 @@ namespace plumbline::check {
 /// levels of detail (lambda): `factor` u of |lambda| (at least of 1), plus the rounding of lambda in double; a lambda
 /// below -16, where every texture is magnified, counts as -16.
 ///
-/// `legal`: exact's legal texels of a foreign candidate, or null. A foreign texel may be any that `conventions` allow at
-/// the fragment's level of detail or, where that is not shown (NaN), at any legal one, and at texel coordinates that are
-/// 4 u off, as in float. A foreign level of detail is exact's, with the rounding of lambda in float, or, where levels
-/// are not per pixel, within the legal interval.
+/// `legal`: exact's legal texels of a foreign candidate, or null. A foreign texel may be any that `conventions` allow
+/// at the fragment's level of detail or, where that is not shown (NaN), at any legal one, and at texel coordinates that
+/// are 4 u off, as in float. A foreign level of detail is exact's, with the rounding of lambda in float, or, where
+/// levels are not per pixel, within the legal interval.
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, const std::vector<TexelRange>* legal = nullptr,
                            const Conventions& conventions = {});

@@ -48,8 +48,8 @@ int bits_of_grid(const Scene& scene, const Records<double>& r, const C& conventi
   return bits;
 }
 
-// Bias [steps] that turns rounding to nearest into the declared rounding. A position less than 2^-20 from a whole number
-// counts as that number.
+// Bias [steps] that turns rounding to nearest into the declared rounding. A position less than 2^-20 from a whole
+// number counts as that number.
 double bias_of(C::Rounding rounding) {
   constexpr double kHalf = 0.5 - 0x1p-20;
   return rounding == C::Rounding::down ? -kHalf : rounding == C::Rounding::up ? kHalf : 0;
@@ -270,8 +270,13 @@ bool has_other_volume(const Conventions& conventions) { return conventions.clip_
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage) {
   if (stage <= Stage::clip) return stage == Stage::clip && has_other_volume(conventions);
   const auto is_moved = [](const Draw& draw) { return draw.polygon_offset.units != 0; };
-  const bool is_other_unit =
-      conventions.offset_unit != C().offset_unit || conventions.float_offset_unit != C().float_offset_unit;
+  const auto unit = [&](const Conventions& by) {
+    const bool of_floats = scene.frame.depth == DepthFormat::z32f;
+    return of_floats                               ? by.float_offset_unit
+           : scene.frame.depth == DepthFormat::z16 ? by.offset_unit.y
+                                                   : by.offset_unit.x;
+  };
+  const bool is_other_unit = unit(conventions) != unit(C());
   if (stage >= Stage::depth && is_other_unit && std::ranges::any_of(scene.draws, is_moved)) return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;

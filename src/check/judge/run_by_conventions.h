@@ -15,17 +15,17 @@ bool has_other_volume(const Conventions& conventions);
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage);
 
 /// Whether run_by_conventions() knows which triangle owns a sample on an edge: the rule is settled (conventions.h,
-/// settles_ties), by left or right and bottom or top; window.snapped holds the grid (at most 8 bits); pixels are sampled
-/// at their centres.
+/// settles_ties), by left or right and bottom or top; window.snapped holds the grid (at most 8 bits); pixels are
+/// sampled at their centres.
 bool knows_ties(const Scene& scene, const Conventions& conventions);
 
 /// referee.run_stage(scene, stage, in), but for what the conventions say otherwise than OpenGL:
 /// - window: positions are moved as to_dialect() moves them; a triangle's area and facing are those on the declared
 ///   grid. Corners that are not snapped count on a grid of 16 bits, or of fewer where positions exceed 31 bits;
 /// - coverage: where knows_ties(), triangles own samples on their edges by the declared rule;
-/// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between which
-///   the renderer interpolates; where depth_corners (depth) or attribute_corners are snapped, the renderer interpolates
-///   between snapped corners; attributes and texture: by 1/w = 1 where interpolation is affine;
+/// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between
+///   which the renderer interpolates; where depth_corners (depth) or attribute_corners are snapped, the renderer
+///   interpolates between snapped corners; attributes and texture: by 1/w = 1 where interpolation is affine;
 /// - depth: polygon offsets by offset_unit; texture: levels and weights by texture_bits, level_of_detail, magnified and
 ///   half_way_level;
 /// - visibility: where alpha tests are in float, alphas are not rounded to codes;

@@ -14,8 +14,8 @@ enum class FlatColors { provoking, own };
 /// mesh must be in the same place; a cut vertex must lie on the clip planes of its counterpart and in the plane of its
 /// triangle, colour included. Where a corner lies within `factor` u of a clip plane, the number of vertices is
 /// ambiguous. `copies`: error of a vertex of the mesh [u of its triangle's largest coordinate, or channel], for a
-/// renderer that keeps clip positions in another form; a cut vertex within `copies` + `factor` u of a corner then counts
-/// as the corner, and a triangle without area, to `factor` u, may have any polygon along itself, or none.
+/// renderer that keeps clip positions in another form; a cut vertex within `copies` + `factor` u of a corner then
+/// counts as the corner, and a triangle without area, to `factor` u, may have any polygon along itself, or none.
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double factor, FlatColors of_flat = FlatColors::provoking, double copies = 0);
 /// Compares positions of clip polygons. Tolerance: `factor` u of |p_clip| + |w|, per coordinate; for references that

@@ -121,9 +121,9 @@ std::string group_of(std::string_view scene);
 bool holds_alone(const SceneVerdict& verdict, Stage stage);
 
 /// The `different` row of the lowest stage; of several at one stage, that of Kind::per_stage, which is wrong by itself,
-/// else the first listed; null if none. Where that stage holds alone and some row of Kind::per_stage is `different`, the
-/// lowest of those rows instead: planes of depth, texels and colours hold the winners' values, so a wrong depth test,
-/// stencil test or frame of a later stage changes them, too.
+/// else the first listed; null if none. Where that stage holds alone and some row of Kind::per_stage is `different`,
+/// the lowest of those rows instead: planes of depth, texels and colours hold the winners' values, so a wrong depth
+/// test, stencil test or frame of a later stage changes them, too.
 const Comparison* first_different(const SceneVerdict& verdict);
 
 /// Whether attributes, texture or shade differ, and by no more than stepping along edges and rows in float makes.

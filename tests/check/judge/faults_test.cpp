@@ -133,7 +133,8 @@ Pixels covered_with(const pipeline::Stages& stages, const pipeline::WindowTriang
   return out;
 }
 
-// Corners on rows' centres: edges begin there, stepped or not. Each row loses one pixel of its span, and one row is lost.
+// Corners on rows' centres: edges begin there, stepped or not. Each row loses one pixel of its span, and one row is
+// lost.
 TEST(Faults, OfScanlinesLeaveTrianglesOnRowCentresRight) {
   std::mt19937 random(4);
   const auto in = [&](int most) { return static_cast<int>(random() % static_cast<unsigned>(most)); };

@@ -286,5 +286,20 @@ TEST_F(ByConventions, AlphasAreComparedAsTheyAreInFloat) {
   EXPECT_EQ(drawn(), 8);
 }
 
+// A polygon offset's unit of one depth format says nothing of frames of another.
+TEST_F(ByConventions, OffsetsAreOtherwiseInFramesOfTheUnitsFormat) {
+  scene.draws[0].polygon_offset.units = 1;
+  C of_floats, of_24_bits, of_16_bits;
+  of_floats.float_offset_unit = 0x1p-23, of_24_bits.offset_unit.x = 1, of_16_bits.offset_unit.y = 1;
+  using enum DepthFormat;
+  for (const DepthFormat format : {z16, z24, z32f}) {
+    scene.frame.depth = format;
+    EXPECT_EQ(draws_otherwise(scene, of_floats, Stage::depth), format == z32f);
+    EXPECT_EQ(draws_otherwise(scene, of_24_bits, Stage::depth), format == z24);
+    EXPECT_EQ(draws_otherwise(scene, of_16_bits, Stage::depth), format == z16);
+    EXPECT_FALSE(draws_otherwise(scene, of_24_bits, Stage::coverage));
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::check

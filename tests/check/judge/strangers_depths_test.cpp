@@ -268,8 +268,8 @@ TEST(LegalDepths, TheClearedOneBeneathAWinnerMayBeEitherCode) {
   EXPECT_TRUE(fails(compared(45877)));
 }
 
-// Draws that write no depth, over a clear depth half way between two codes: the candidate has the other code throughout,
-// but for one pixel.
+// Draws that write no depth, over a clear depth half way between two codes: the candidate has the other code
+// throughout, but for one pixel.
 TEST(LegalDepths, AClearDepthBeneathDrawsWithoutDepthIsOfOneCode) {
   Scene scene = suite_scene("depth/clear_on_half");
   for (Draw& draw : scene.draws) draw.merge.depth_mask = false;
@@ -288,7 +288,8 @@ TEST(LegalDepths, AClearDepthBeneathDrawsWithoutDepthIsOfOneCode) {
   EXPECT_EQ(judged(), Outcome::different);
 }
 
-// Codes of 16 bits are held to their declared rounding though depths are interpolated in float; of 24 bits they are not.
+// Codes of 16 bits are held to their declared rounding though depths are interpolated in float; of 24 bits they are
+// not.
 TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
   const auto outcome = [](DepthFormat format, Conventions::Rounding declared, double off) {
     Scene scene = suite_scene("depth/interpenetrating");
@@ -320,8 +321,8 @@ TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
   EXPECT_NE(outcome(DepthFormat::z24, nearest, 0), Outcome::different);
 }
 
-// Beside the cut by the near plane of [0,w], snapping turns a piece over, whose plane goes through snapped corners: the C
-// renderer of tests/renderers comes to the end of the depth range there.
+// Beside the cut by the near plane of [0,w], snapping turns a piece over, whose plane goes through snapped corners: the
+// C renderer of tests/renderers comes to the end of the depth range there.
 TEST(LegalDepths, BesideACutMayGoThroughSnappedCorners) {
   const Scene scene = suite_scene("depth_range/halves_z16");
   Conventions conventions;

@@ -91,8 +91,8 @@ TEST_F(JoinedPolygons, CopiesOfACutVertexMayBeRoundedApart) {
   EXPECT_TRUE(fails(with(parts(1, {a, b}), [&](auto& v) { v[copy].p_clip.x += 256 * kU; })));
 }
 
-// A clipper that cuts triangles by one plane after the other also cuts the edges that they share: vertices in the middle
-// of the polygon's edge.
+// A clipper that cuts triangles by one plane after the other also cuts the edges that they share: vertices in the
+// middle of the polygon's edge.
 TEST_F(JoinedPolygons, AVertexOnTheEdgeThatACutMadeIsNoCorner) {
   const auto i = cuts(1)[0], j = cuts(1)[1];
   ASSERT_EQ((i + 1) % 4, j);
