@@ -38,7 +38,7 @@ DeclaredCodes declared_codes(const SceneJudgement& c) {
   if (depth_scale(c.scene.frame.depth) == 0 || !c.foreign) return {};
   const auto is_open = [&](std::string_view name) { return std::ranges::find(d.open, name) != d.open.end(); };
   DeclaredCodes out;
-  out.has_codes = !(d == undeclared()) && d.depth_format == Conventions::Depth::as_asked && !is_open("depth_format");
+  out.has_codes = !(d == undeclared()) && !is_open("depth_format");
   // The product by the largest code is rounded in float, too: by up to a code of 24 bits, 1/256 of one of 16. Depths of
   // 16 bits beside stencil values are made of codes of 24, because OpenGL has no such format.
   const FrameFormat& frame = c.scene.frame;

@@ -160,7 +160,7 @@ void compare_primitive(Meter& meter, const WholePolygon& mine, const WholePolygo
     compare_lacking(meter, mine, theirs, primitive);
   } else if (primitive.is_flat && mine.vertices().size() != theirs.vertices().size()) {
     meter.ambiguous();
-    within_whole(meter, mine.parts(), theirs.vertices(), primitive);
+    within_whole(meter, mine.parts(), clipped(primitive.corners, -primitive.reach()), primitive);
   } else if (mine.is_one() && theirs.is_one()) {
     compare_joined(meter, mine.vertices(), theirs.vertices(), primitive);
   } else {

@@ -45,6 +45,27 @@ TEST_F(OpenPolygons, AForeignTriangleWithoutAreaMayHaveAnyPolygonAlongItselfOrNo
   }
 }
 
+// Triangle of clip/along_the_far_plane, cut in float near, then far: the far cut slides along the triangle by 2.9.
+TEST_F(OpenPolygons, AForeignTriangleWithoutAreaAlongAPlaneMayBeCutAnywhereAlongIt) {
+  set({{{0.000419555872, 0.000891741831, 4.8107028, 4.81038427},
+        {-0.00045310898, 0.000629942399, 6.30261087, 6.30219269},
+        {0.877657175, 0.118457153, -4688.51025, -4688.19775}}});
+  records.lit[0] = records.lit[1] = records.lit[2];
+  const auto cut_far_at = [&](double w) {
+    return [&, w](Records<double>& r) {
+      const glm::dvec4 color = r.lit[2].color;
+      r.polygons.vertices = {
+          {{0.000725595048, 0.000788109144, 0.000788109086, 0.000788109086}, color, true},
+          {{0.00131856732, 0.0010122275, 0.000523952243, 0.0010122275}, color, true},
+          {{0.00077448471, 0.000939309481, w, w}, color, true},
+      };
+      r.polygons.polygons = {{0, 0, 3}};
+    };
+  };
+  EXPECT_TRUE(passes(compare(cut_far_at(2.91164875), kUnchanged, 1)));
+  EXPECT_TRUE(fails(compare(cut_far_at(8), kUnchanged, 1))) << "beyond both corners";
+}
+
 TEST_F(OpenPolygons, AVertexInTheEyeOpensNoPlane) {
   ASSERT_EQ(records.polygons.polygons[2].count, 4u);
   EXPECT_TRUE(fails(compare([&](auto& r) {
