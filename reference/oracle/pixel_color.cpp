@@ -98,6 +98,8 @@ class FragmentColor {
   void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
   BoundedFour textured(const BoundedFour& color) const;
   void fog(BoundedFour& color) const;
+  // Fog factor at the fragment.
+  Bounded fog_factor_there() const;
 
   const Scene& scene_;
   const PixelSite& site_;
@@ -167,14 +169,31 @@ BoundedFour FragmentColor::textured(const BoundedFour& color) const {
   return bounded_textured_color(texture, *draw_.texture, color, place, rules);
 }
 
+// Interpolated factors of vertices lie between 0 and 1. A factor of linear fog that is interpolated and then clamped is
+// that of the interpolated distance; OpenGL does not say which of the two is done first.
+Bounded FragmentColor::fog_factor_there() const {
+  const Fog& fog = *draw_.fog;
+  const BoundedFour z_eye = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.z_eye), c.z_eye_error}; });
+  Bounded out = fog_factor(fog, {z_eye.value.x, z_eye.bound}, {16});
+  if (site_.scene.conventions.fog_factor == Conventions::FogFactor::per_vertex) {
+    const BoundedFour of_vertices = attribute([&](const Corner& c) {
+      const Bounded f = fog_factor(fog, {c.z_eye, c.z_eye_error}, {16});
+      return BoundedFour{glm::dvec4(f.value), f.error};
+    });
+    const double f = std::clamp(of_vertices.value.x, 0.0, 1.0);
+    const double apart = fog.mode == Fog::Mode::linear ? std::abs(f - out.value) / 2 : 0;
+    out = apart > 0 ? Bounded{(f + out.value) / 2, apart + std::max(of_vertices.bound, out.error)}
+                    : Bounded{f, of_vertices.bound};
+  }
+  out.error = std::isfinite(out.error) ? std::min(1.0, out.error) : 1;
+  return out;
+}
+
 void FragmentColor::fog(BoundedFour& color) const {
-  const auto z_eye = [](const Corner& c) { return BoundedFour{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error}; };
-  const BoundedFour p = attribute(z_eye);
-  const double f_error =
-      std::isfinite(p.bound) ? std::min(1.0, fog_factor(*draw_.fog, {p.value.z, p.bound}, {16}).error) : 1;
-  const glm::dvec3 from_fog = glm::abs(glm::dvec3(color.value) - glm::dvec3(draw_.fog->color));
-  color.bound += f_error * (std::max({from_fog.x, from_fog.y, from_fog.z}) + color.bound) + 4 * kFloatRounding;
-  color.value = fogged(*draw_.fog, color.value, p.value.z);
+  const Bounded f = fog_factor_there();
+  const glm::dvec3 own(color.value), of_fog(draw_.fog->color), from_fog = glm::abs(own - of_fog);
+  color.bound += f.error * (std::max({from_fog.x, from_fog.y, from_fog.z}) + color.bound) + 4 * kFloatRounding;
+  color.value = glm::dvec4(f.value * own + (1 - f.value) * of_fog, color.value.a);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ const std::vector<Probe>& probes() {
       {learn_provoking_vertex, {"provoking_vertex"}},
       {learn_alpha_test, {"alpha_test"}},
       {learn_blending, {"blending"}},
+      {learn_fog, {"fog_factor"}},
       {learn_offset_unit, {kOffsetWords.name}},
       {learn_float_offset_unit, {kFloatOffsetWords.name}},
       {learn_weights, {"texture_bits"}},

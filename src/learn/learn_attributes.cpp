@@ -1,4 +1,4 @@
-// Clipping at the near and far plane, interpolation, and the provoking vertex.
+// Clipping at the near and far plane, interpolation, fog factors, and the provoking vertex.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +17,30 @@ namespace {
 using C = Conventions;
 
 constexpr int kFrameSize = 64;
+
+// A wall that goes from w = 2 at the left to w = 16 at the right, from one grey to another.
+Scene receding_wall(const char* name, float left, float right) {
+  Scene scene = probe_frame(name, kFrameSize, kFrameSize);
+  scene.projection = Perspective{90, 1, 100};
+  const auto at = [](double x, double y, double w, float grey) {
+    return ProbeCorner{{x * w, y * w, w}, {grey, grey, grey, 1}, {}};
+  };
+  add_triangles(scene, quad({at(-1, -1, 2, left), at(1, -1, 16, right), at(1, 1, 16, right), at(-1, 1, 2, left)}));
+  return scene;
+}
+// Share of the right corners in an attribute of the wall's pixels at column x.
+struct Shares {
+  double affine, perspective;
+};
+Shares shares_at(int x, const C& conventions) {
+  const double s = (x + conventions.sample.x) / kFrameSize;
+  return {s, (s / 16) / ((1 - s) / 2 + s / 16)};
+}
+// Whether the wall's grey at column x is near to this one.
+bool is_grey(const Plane<glm::vec4>& color, int x, double grey) {
+  const glm::dvec3 off = glm::abs(glm::dvec3(color(x, kFrameSize / 2)) - grey);
+  return std::max({off.r, off.g, off.b}) < 2.0 / 255 + 0.3 / kFrameSize;
+}
 
 }  // namespace
 
@@ -75,27 +99,16 @@ void learn_clipping(Prober& prober) {
   prober.found(planes, name_of(c.depth_planes), evidence);
 }
 
-// A wall that goes from w = 2 at the left to w = 16 at the right, black to white.
 void learn_interpolation(Prober& prober) {
   const ConventionWords words = words_of("interpolation");
   const C& c = prober.learned.conventions;
   if (prober.lacks(words, {"color_encoding"})) return;
   if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
-  Scene scene = probe_frame("interpolation", kFrameSize, kFrameSize);
-  scene.projection = Perspective{90, 1, 100};
-  const auto at = [](double x, double y, double w, float red) {
-    return ProbeCorner{{x * w, y * w, w}, {red, red, red, 1}, {}};
-  };
-  add_triangles(scene, quad({at(-1, -1, 2, 0), at(1, -1, 16, 1), at(1, 1, 16, 1), at(-1, 1, 2, 0)}));
-  const Plane<glm::vec4> color = prober.draw(scene).color;
+  const Plane<glm::vec4> color = prober.draw(receding_wall("interpolation", 0, 1)).color;
   std::size_t perspective = 0, affine = 0;
   for (int x = 0; x < kFrameSize; ++x) {
-    const double s = (x + c.sample.x) / kFrameSize, share = (s / 16) / ((1 - s) / 2 + s / 16);
-    const auto near_to = [&](double v) {
-      const glm::dvec3 off = glm::abs(glm::dvec3(color(x, kFrameSize / 2)) - v);
-      return std::max({off.r, off.g, off.b}) < 2.0 / 255 + 0.3 / kFrameSize;
-    };
-    perspective += near_to(share), affine += near_to(s);
+    const Shares share = shares_at(x, c);
+    perspective += is_grey(color, x, share.perspective), affine += is_grey(color, x, share.affine);
   }
   const std::size_t most = std::max(perspective, affine);
   const std::string evidence = fmt::format("{} of {} pixels", most, kFrameSize);
@@ -103,6 +116,38 @@ void learn_interpolation(Prober& prober) {
   prober.learned.conventions.interpolation =
       perspective >= affine ? C::Interpolation::perspective : C::Interpolation::affine;
   prober.found(words, name_of(prober.learned.conventions.interpolation), evidence);
+}
+
+// A white wall in black fog. Between its ends the factors of the distance, and those between the ends' own, are up to
+// 30 codes apart.
+void learn_fog(Prober& prober) {
+  constexpr float kDensity = 0.125f;
+  const ConventionWords words = words_of("fog_factor");
+  C& c = prober.learned.conventions;
+  if (prober.lacks(words, {"color_encoding", "interpolation"})) return;
+  if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
+  Scene scene = receding_wall("fog_factor", 1, 1);
+  scene.draws[0].fog = Fog{.mode = Fog::Mode::exp, .color = glm::vec3(0), .density = kDensity};
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  const auto factor = [](double distance) { return std::exp(-double{kDensity} * distance); };
+  std::size_t per_fragment = 0, per_vertex = 0, from_eye = 0;
+  for (int x = 0; x < kFrameSize; ++x) {
+    const Shares shares = shares_at(x, c);
+    const double share = c.interpolation == C::Interpolation::affine ? shares.affine : shares.perspective;
+    const double distance = 2 + 14 * share, slope = 2 * shares.affine - 1;
+    per_fragment += is_grey(color, x, factor(distance));
+    per_vertex += is_grey(color, x, factor(2) + share * (factor(16) - factor(2)));
+    from_eye += is_grey(color, x, factor(distance * std::sqrt(1 + slope * slope)));
+  }
+  const std::size_t most = std::max(per_fragment, per_vertex);
+  const std::string evidence = fmt::format("{} of {} pixels", most, kFrameSize);
+  if (most * 10 < kFrameSize * 9) {
+    const std::string by_eye =
+        from_eye > most ? fmt::format("; {} by the distance from the eye, for |z_eye|", from_eye) : "";
+    return prober.fits_none(words, evidence + " at most are explained" + by_eye);
+  }
+  c.fog_factor = per_fragment >= per_vertex ? C::FogFactor::per_fragment : C::FogFactor::per_vertex;
+  prober.found(words, name_of(c.fog_factor), evidence);
 }
 
 // Ramps two pixels wide, whose corners lie just under half a step off the grid (just under a whole step by roundings

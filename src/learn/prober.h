@@ -93,6 +93,7 @@ void learn_depth_corners(Prober& prober);
 void learn_provoking_vertex(Prober& prober);
 void learn_alpha_test(Prober& prober);
 void learn_blending(Prober& prober);
+void learn_fog(Prober& prober);
 void learn_offset_unit(Prober& prober);
 void learn_float_offset_unit(Prober& prober);
 void learn_weights(Prober& prober);

@@ -31,6 +31,10 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
       c.skip(name, stage, Outcome::unsupported, "its view volume is another");
       continue;
     }
+    if (stage == Stage::shade && fogs_by_vertices(scene, c.conventions)) {
+      c.skip(name, stage, Outcome::unsupported, "its fog factors are of vertices: the frame's colours are judged");
+      continue;
+    }
     if (shown != nullptr) {
       std::string lacking = lacking_per_stage(scene, *shown, stage);
       const auto of = c.foreign ? VaryingsOf::inputs_and_output : VaryingsOf::inputs;

@@ -267,6 +267,11 @@ Capture merge_in_float(Renderer& referee, const Scene& scene, const Capture& in,
 
 bool has_other_volume(const Conventions& conventions) { return conventions.clip_depth != C::ClipDepth::minus_w_to_w; }
 
+bool fogs_by_vertices(const Scene& scene, const Conventions& conventions) {
+  return conventions.fog_factor == C::FogFactor::per_vertex &&
+         std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.fog.has_value(); });
+}
+
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage) {
   if (stage <= Stage::clip) return stage == Stage::clip && has_other_volume(conventions);
   const auto is_moved = [](const Draw& draw) { return draw.polygon_offset.units != 0; };
@@ -278,6 +283,7 @@ bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage s
   };
   const bool is_other_unit = unit(conventions) != unit(C());
   if (stage >= Stage::depth && is_other_unit && std::ranges::any_of(scene.draws, is_moved)) return true;
+  if (stage >= Stage::shade && fogs_by_vertices(scene, conventions)) return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
 }

@@ -11,6 +11,9 @@ namespace plumbline::check {
 /// apply.
 bool has_other_volume(const Conventions& conventions);
 
+/// Whether a draw's fog factors are computed at vertices: its fragments' records do not hold what they are made of.
+bool fogs_by_vertices(const Scene& scene, const Conventions& conventions);
+
 /// Whether the conventions make another stage than OpenGL's.
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage);
 

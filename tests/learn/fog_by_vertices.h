@@ -1,0 +1,55 @@
+// Our renderer with fog factors of vertices, interpolated as other attributes are (fog_factor per_vertex).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernels/shade.h"
+#include "pipeline/geometry.h"
+#include "renderers/pipeline_renderer.h"
+
+namespace plumbline::test {
+
+// Factor of linear fog that is not clamped; others are in [0, 1].
+inline float unclamped_fog_factor(const Fog& fog, float z_eye) {
+  if (fog.mode != Fog::Mode::linear) return pipeline::fog_factor<float>(fog, z_eye);
+  return (fog.end - std::abs(z_eye)) / (fog.end - fog.start);
+}
+
+/// Stage light, which leaves fog factors of vertices for their eye-space z.
+template <auto factor>
+void light_with_fog_factors(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
+                            std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
+  const std::size_t first = out.size();
+  pipeline::light(scene, draw, mesh, lights, vertices, out);
+  for (std::size_t i = 0; draw.fog && i < vertices.size(); ++i)
+    out[first + i][Varying::position].b = factor(*draw.fog, vertices[i].p_eye.z);
+}
+
+/// Stage shade, which takes the fragment's eye-space z for its fog factor, and clamps it.
+inline pipeline::Shaded shade_by_fog_factor(const pipeline::Surface& surface, bool front,
+                                            const pipeline::SurfaceAttributes<float>& attributes) {
+  Draw clear = *surface.draw;
+  clear.fog.reset();
+  pipeline::Surface without = surface;
+  without.draw = &clear;
+  const pipeline::Color<float> color = pipeline::shade<float>(without, front, attributes);
+  if (!surface.draw->fog) return {color};
+  const float f = std::clamp(attributes[Varying::position].b, 0.0f, 1.0f);
+  const glm::vec3& fog = surface.draw->fog->color;
+  return {{f * color.r + (1 - f) * fog.r, f * color.g + (1 - f) * fog.g, f * color.b + (1 - f) * fog.b, color.a}};
+}
+
+/// `factor`: factors of vertices.
+template <auto factor>
+std::unique_ptr<Renderer> make_fog_by_vertices() {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.light = light_with_fog_factors<factor>;
+  stages.shade = shade_by_fog_factor;
+  return pipeline::make_pipeline(stages);
+}
+
+}  // namespace plumbline::test
