@@ -140,16 +140,24 @@ void learn_colors(Prober& prober) {
   prober.found(encoding, name_of(c.color_encoding), evidence);
 }
 
-// Alphas of 128.2 codes against 127.8: of one code, and greater as floats.
+// Alphas of 128.2 codes against 127.8, and of 128.4 against 128.1: greater as floats, and of one code. Codes that are
+// truncated or rounded up part the first two.
 void learn_alpha_test(Prober& prober) {
   const ConventionWords words = words_of("alpha_test");
-  Scene scene = probe_frame("alpha_test", 16, 16);
-  add_triangles(scene, rectangle({0, 0}, {16, 16}, 0.5, {1, 1, 1, 128.2f / 255})).alpha_test =
-      AlphaTest{CompareFunc::greater, 127.8f / 255};
-  const bool passes = prober.draw(scene).color(8, 4).r > 0.5f;  // not on the diagonal
-  prober.learned.conventions.alpha_test = passes ? C::AlphaTest::in_float : C::AlphaTest::in_codes;
-  prober.found(words, name_of(prober.learned.conventions.alpha_test),
-               fmt::format("128.2 / 255 {} 127.8 / 255", passes ? "passes as greater than" : "is equal to"));
+  const auto passes = [&](float alpha, float reference) {
+    Scene scene = probe_frame("alpha_test", 16, 16);
+    add_triangles(scene, rectangle({0, 0}, {16, 16}, 0.5, {1, 1, 1, alpha / 255})).alpha_test =
+        AlphaTest{CompareFunc::greater, reference / 255};
+    return prober.draw(scene).color(8, 4).r > 0.5f;  // not on the diagonal
+  };
+  const bool first = passes(128.2f, 127.8f), second = passes(128.4f, 128.1f);
+  const auto said = [](bool is_greater) { return is_greater ? "passes as greater than" : "is equal to"; };
+  const std::string evidence = fmt::format("128.2 / 255 {} 127.8 / 255", said(first));
+  if (first != second)
+    return prober.fits_none(words, fmt::format("{}, 128.4 / 255 {} 128.1 / 255{}", evidence, said(second),
+                                               first ? ": codes are not rounded to nearest" : ""));
+  prober.learned.conventions.alpha_test = first ? C::AlphaTest::in_float : C::AlphaTest::in_codes;
+  prober.found(words, name_of(prober.learned.conventions.alpha_test), evidence);
 }
 
 // Blends two layers over a colour. A renderer that blends in float and rounds each result once is within one rounding

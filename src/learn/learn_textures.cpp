@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -87,6 +88,21 @@ bool are_of_rounding(const WeightErrors& errors, double step) {
   return errors.most - errors.least <= 2 * step + 2 * kCode && std::abs(errors.mean) <= step / 2 + kCode;
 }
 
+// Largest difference of texels that are not filtered from those that the scene asks for [codes].
+double texels_off(Prober& prober, auto code) {
+  constexpr int kTexels = 4, kPixels = kTexturedSize / kTexels;
+  Texture texture = texture_of(kTexels, code);
+  texture.sampler.min = MinFilter::nearest, texture.sampler.mag = MagFilter::nearest;
+  const Plane<glm::vec4> color = prober.draw(textured_frame("texels", std::move(texture), 1)).color;
+  double most = 0;
+  for (int y = 0; y < kTexturedSize; ++y) {
+    for (int x = 0; x < kTexturedSize; ++x) {
+      if (x != y) most = farther(most, 255 * static_cast<double>(color(x, y).r) - code(x / kPixels, y / kPixels));
+    }
+  }
+  return most;
+}
+
 }  // namespace
 
 void learn_weights(Prober& prober) {
@@ -122,7 +138,12 @@ void learn_weights(Prober& prober) {
   if (!std::isfinite(most)) return prober.fits_none(words, evidence);
   // Coarse weights err towards either neighbour, truncated mixes downwards only.
   if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");
-  const bool are_float = most <= (c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01);
+  const double rounding = c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01;
+  const bool are_float = most <= rounding;
+  constexpr double kCode = 1;  // that other roundings of colours make
+  if (const double off = are_float ? 0 : texels_off(prober, code); off > rounding + kCode)
+    return prober.fits_none(
+        words, fmt::format("{}; texels that are not filtered, {:.2f}: they are kept in fewer bits", evidence, off));
   const int bits = are_float ? C::kFloat : std::min(static_cast<int>(std::floor(-std::log2(step))), 12);
   if (!are_float && bits < 4) return prober.fits_none(words, evidence);
   // Errors show their form where a step is two codes or more.

@@ -104,5 +104,23 @@ TEST(LearnCourses, AProbeThatFailsIsAFindingAndTheOthersGoOn) {
   EXPECT_THROW(learn(three), RendererFailed);
 }
 
+// Alphas and references in codes that are rounded up or down are told from floats.
+TEST(LearnCourses, AlphasInTruncatedCodesAreAFinding) {
+  const auto learned_of = [](float (*kept)(float)) {
+    OfAlteredScenes renderer;
+    renderer.before = [=](Scene& scene) {
+      for (Draw& draw : scene.draws) {
+        if (!draw.alpha_test) continue;
+        draw.alpha_test->reference = kept(255 * draw.alpha_test->reference) / 255;
+        for (glm::vec4& color : scene.meshes[draw.mesh].colors) color.a = kept(255 * color.a) / 255;
+      }
+    };
+    return learn(renderer).conventions;
+  };
+  EXPECT_TRUE(is_said(learned_of(std::floor), "codes are not rounded to nearest"));
+  EXPECT_TRUE(is_said(learned_of(std::ceil), "codes are not rounded to nearest"));
+  EXPECT_EQ(learned_of(std::round).alpha_test, C::AlphaTest::in_codes);
+}
+
 }  // namespace
 }  // namespace plumbline::learn

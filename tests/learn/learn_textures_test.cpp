@@ -52,5 +52,22 @@ TEST(LearnTextures, CurvesAndOffsetsAreNoWeightsOfFewBits) {
   EXPECT_NE(says(test::moved_by_a_texels_part).find("no rounding"), std::string::npos);
 }
 
+// Texels of 5, 6 and 5 bits, filtered with weights in float.
+TEST(LearnTextures, TexelsOfFewBitsAreNoWeightsOfFewBits) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) {
+    const auto kept = [](float& channel, float codes) { channel = std::floor(channel * codes + 0.5f) / codes; };
+    for (Texture& texture : scene.textures) {
+      for (TextureLevel& level : texture.levels) {
+        for (glm::vec4& texel : level.texels) kept(texel.r, 31), kept(texel.g, 63), kept(texel.b, 31);
+      }
+    }
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.texture_bits, C::kFloat);
+  ASSERT_EQ(found.unexplained.size(), 1u);
+  EXPECT_NE(found.unexplained[0].find("they are kept in fewer bits"), std::string::npos) << found.unexplained[0];
+}
+
 }  // namespace
 }  // namespace plumbline::learn
