@@ -39,9 +39,8 @@ std::string holes_text(const Scene& scene, const GivenFrame& given) {
   }
   if (wrong == 0 || 2 * (holes + drawn) < wrong) return "";
   return fmt::format(
-      "of {} wrong pixels, {} are as cleared where a surface is to be seen, {} show one where none is: coverage, or "
-      "what "
-      "is clipped or culled before it\n",
+      "of {} wrong pixels, {} are as cleared where a surface is to be seen, {} show one where none is: coverage, what "
+      "is clipped or culled before it, a test of depth, stencil or alpha, or the clear\n",
       wrong, holes, drawn);
 }
 

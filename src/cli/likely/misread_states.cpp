@@ -146,13 +146,23 @@ bool is_set(const DepthRange& range) { return range != DepthRange(); }
 bool is_set(bool writes_depth) { return !writes_depth; }
 bool is_set(const glm::bvec4& written) { return written != glm::bvec4(true); }
 
-// State of(draw) that persists: a draw that sets none has that of the draw before.
-template <class Of>
-Change stays(Of of) {
-  return [of](Scene& scene) {
+// The member of a draw, or of its merge state.
+template <auto member>
+auto& member_of(Draw& draw) {
+  if constexpr (requires { draw.*member; }) {
+    return draw.*member;
+  } else {
+    return draw.merge.*member;
+  }
+}
+
+// Member that persists: a draw that does not set it has that of the draw before.
+template <auto member>
+Change stays() {
+  return [](Scene& scene) {
     bool changed = false;
     for (std::size_t i = 1; i < scene.draws.size(); ++i) {
-      auto &before = of(scene.draws[i - 1]), &here = of(scene.draws[i]);
+      auto &before = member_of<member>(scene.draws[i - 1]), &here = member_of<member>(scene.draws[i]);
       if (is_set(here) || !is_set(before)) continue;
       here = before;
       changed = true;
@@ -163,7 +173,7 @@ Change stays(Of of) {
 
 bool texture_stays(Scene& scene) {
   Scene stayed = scene;
-  if (!stays([](Draw & d) -> auto& { return d.texture; })(stayed)) return false;
+  if (!stays<&Draw::texture>()(stayed)) return false;
   bool changed = false;
   for (std::size_t i = 0; i < scene.draws.size(); ++i) {
     Draw& draw = scene.draws[i];
@@ -208,7 +218,7 @@ std::vector<MisreadState> all_states() {
       {"matrices", "depth_range_ignored", "depths are mapped to [0, 1], whatever the depth range",
        of_draws([](Draw& d) { return reset(d.depth_range, DepthRange()); })},
       {"matrices", "depth_range_stays", "a draw without a depth range has that of the draw before",
-       stays([](Draw & d) -> auto& { return d.depth_range; })},
+       stays<&Draw::depth_range>()},
       {"matrices", "transforms_ignored", "draws are not moved, turned or scaled",
        of_draws([](Draw& d) { return !std::exchange(d.transforms, {}).empty(); })},
       {"vertex", "normals_normalized", "normals are brought to unit length, though they are to stay as they are",
@@ -241,8 +251,7 @@ std::vector<MisreadState> all_states() {
       {"clip", "depth_clamp_ignored", "near and far planes cut, though depths are to be clamped",
        [](Scene& s) { return reset(s.depth_clamp, false); }},
       {"window", "cull_ignored", "no face is culled", of_draws([](Draw& d) { return reset(d.cull, Cull::none); })},
-      {"window", "cull_stays", "a draw that culls no face culls as the draw before",
-       stays([](Draw & d) -> auto& { return d.cull; })},
+      {"window", "cull_stays", "a draw that culls no face culls as the draw before", stays<&Draw::cull>()},
       {"window", "polygon_mode_ignored", "triangles are filled, whatever their mode", of_draws([](Draw& d) {
          const bool front = reset(d.front_mode, PolygonMode::fill);
          return reset(d.back_mode, PolygonMode::fill) || front;
@@ -257,13 +266,13 @@ std::vector<MisreadState> all_states() {
       {"coverage", "scissor_from_other_side", "scissor boxes are counted from the other side of the frame",
        scissor_from_other_side},
       {"coverage", "scissor_stays", "a draw without a scissor box has that of the draw before",
-       stays([](Draw & d) -> auto& { return d.scissor; })},
+       stays<&Draw::scissor>()},
       {"depth", "polygon_offset_ignored", "depths are not offset",
        of_draws([](Draw& d) { return reset(d.polygon_offset, PolygonOffset()); })},
       {"depth", "offset_without_units", "depths are offset by their slope alone",
        of_draws([](Draw& d) { return reset(d.polygon_offset.units, 0.0f); })},
       {"depth", "polygon_offset_stays", "a draw without a polygon offset has that of the draw before",
-       stays([](Draw & d) -> auto& { return d.polygon_offset; })},
+       stays<&Draw::polygon_offset>()},
       {"texture", "filters_ignored", "the nearest texel is taken, whatever the filters", of_samplers([](Sampler& s) {
          const bool magnified = reset(s.mag, MagFilter::nearest);
          return reset(s.min, MinFilter::nearest) || magnified;
@@ -301,8 +310,7 @@ std::vector<MisreadState> all_states() {
       {"shade", "fog_start_ignored", "linear fog begins at the eye", of_draws([](Draw& d) {
          return d.fog && d.fog->mode == Fog::Mode::linear && d.fog->end != 0 && reset(d.fog->start, 0.0f);
        })},
-      {"shade", "fog_stays", "a draw without fog has that of the draw before",
-       stays([](Draw & d) -> auto& { return d.fog; })},
+      {"shade", "fog_stays", "a draw without fog has that of the draw before", stays<&Draw::fog>()},
       {"shade", "fog_exponents_swapped", "fog by exp is by exp2, and the other way round", of_draws(kSwapsExponents)},
       {"visibility", "depth_func_ignored", "all depth tests are less",
        of_draws([](Draw& d) { return reset(d.depth_func, DepthFunc::less); })},
@@ -311,11 +319,10 @@ std::vector<MisreadState> all_states() {
       {"visibility", "depth_mask_ignored", "depths are written, though they are masked",
        of_draws([](Draw& d) { return reset(d.merge.depth_mask, true); })},
       {"visibility", "depth_func_stays", "a draw without a depth function has that of the draw before",
-       stays([](Draw & d) -> auto& { return d.depth_func; })},
-      {"visibility", "depth_mask_stays", "after a draw that leaves no depths, none does",
-       stays([](Draw & d) -> auto& { return d.merge.depth_mask; })},
+       stays<&Draw::depth_func>()},
+      {"visibility", "depth_mask_stays", "after a draw that leaves no depths, none does", stays<&Merge::depth_mask>()},
       {"visibility", "alpha_test_stays", "a draw without an alpha test has that of the draw before",
-       stays([](Draw & d) -> auto& { return d.alpha_test; })},
+       stays<&Draw::alpha_test>()},
       {"visibility", "clear_depth_ignored", "the depth is cleared to 1",
        [](Scene& s) { return reset(s.frame.clear_depth, 1.0); }},
       {"visibility", "stencil_ignored", "stencil values hide nothing",
@@ -329,15 +336,13 @@ std::vector<MisreadState> all_states() {
          return reset(d.stencil->back.depth_fail, d.stencil->back.fail) || front;
        })},
       {"visibility", "stencil_stays", "a draw without a stencil test has that of the draw before",
-       stays([](Draw & d) -> auto& { return d.stencil; })},
+       stays<&Draw::stencil>()},
       {"merge", "blend_ignored", "colours replace what is stored, and are not blended with it",
        of_draws([](Draw& d) { return reset(d.merge.blend); })},
-      {"merge", "blend_stays", "a draw that does not blend blends as the draw before",
-       stays([](Draw & d) -> auto& { return d.merge.blend; })},
-      {"merge", "logic_op_stays", "a draw without a logic op has that of the draw before",
-       stays([](Draw & d) -> auto& { return d.merge.logic_op; })},
+      {"merge", "blend_stays", "a draw that does not blend blends as the draw before", stays<&Merge::blend>()},
+      {"merge", "logic_op_stays", "a draw without a logic op has that of the draw before", stays<&Merge::logic_op>()},
       {"merge", "color_mask_stays", "a draw that writes all channels writes those of the draw before",
-       stays([](Draw & d) -> auto& { return d.merge.color_mask; })},
+       stays<&Merge::color_mask>()},
       {"merge", "mask_blue_first", "the mask of red is taken for that of blue, and the other way round",
        of_draws([](Draw& d) {
          std::swap(d.merge.color_mask.r, d.merge.color_mask.b);
