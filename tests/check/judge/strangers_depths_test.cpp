@@ -291,7 +291,8 @@ TEST(LegalDepths, AClearDepthBeneathDrawsWithoutDepthIsOfOneCode) {
 // Codes of 16 bits are held to their declared rounding though depths are interpolated in float; of 24 bits they are
 // not.
 TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
-  const auto outcome = [](DepthFormat format, Conventions::Rounding declared, double off) {
+  using As = Conventions::Depth;
+  const auto outcome = [](DepthFormat format, Conventions::Rounding declared, double off, As of_all = As::as_asked) {
     Scene scene = suite_scene("depth/interpenetrating");
     scene.frame.depth = format;
     const auto exact = exact::make_exact();
@@ -308,6 +309,7 @@ TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
     Conventions conventions;
     conventions.depth_arithmetic = Conventions::DepthArithmetic::in_float;
     conventions.depth_rounding = declared;
+    conventions.depth_format = of_all;
     const auto judge = [&](const SceneJudgement& c, Renderer&) {
       compare_with_legal(c, expected.legal, Stage::depth, "exact");
     };
@@ -319,6 +321,8 @@ TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
   EXPECT_NE(outcome(DepthFormat::z16, down, 0), Outcome::different);
   EXPECT_EQ(outcome(DepthFormat::z16, down, 0.5), Outcome::different);
   EXPECT_NE(outcome(DepthFormat::z24, nearest, 0), Outcome::different);
+  EXPECT_NE(outcome(DepthFormat::z16, nearest, 0.5, As::z16), Outcome::different) << "a renderer of 16 bits alone";
+  EXPECT_EQ(outcome(DepthFormat::z16, nearest, 0, As::z16), Outcome::different);
 }
 
 // Beside the cut by the near plane of [0,w], snapping turns a piece over, whose plane goes through snapped corners: the
