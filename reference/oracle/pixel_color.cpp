@@ -98,6 +98,9 @@ class FragmentColor {
   void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
   BoundedFour textured(const BoundedFour& color) const;
   void fog(BoundedFour& color) const;
+  // Largest error of a colour that is rounded to a code, where fragments' colours are codes. The frame rounds a code to
+  // itself: the last rounding counts where the colour is blended alone.
+  double rounding() const;
   // Fog factor at the fragment.
   Bounded fog_factor_there() const;
 
@@ -120,12 +123,28 @@ BoundedFour FragmentColor::color() const {
     });
   }
   if (is_lit_per_fragment(draw_)) light_fragment(color, secondary);
-  if (draw_.texture) color = textured(color);
-  if (draw_.lit && separate)
-    color = {color_sum(color.value, secondary.value), color.bound + secondary.bound + kFloatRounding};
+  const bool adds = draw_.lit && separate, is_blended = draw_.merge.blend.has_value();
+  const double of_last = is_blended ? rounding() : 0, before_sum = draw_.fog || adds ? rounding() : of_last,
+               before_texture = draw_.texture ? rounding() : before_sum;
+  color.bound += before_texture, secondary.bound += before_texture;
+  if (draw_.texture) {
+    color = textured(color);
+    color.bound += rounding() + before_sum;  // of the texel, times at most 1, and of the result
+  }
+  if (adds) color = {color_sum(color.value, secondary.value), color.bound + secondary.bound + kFloatRounding};
   if (is_two_sided() && site_.may_show_either_face(certain_)) color.bound = kInfinity;
-  if (draw_.fog && std::isfinite(color.bound)) fog(color);
+  if (draw_.fog && std::isfinite(color.bound)) {
+    fog(color);
+    color.bound += of_last;
+  }
   return color;
+}
+
+double FragmentColor::rounding() const {
+  const Conventions& conventions = site_.scene.conventions;
+  const double scale = color_scale(scene_.frame.color);
+  if (conventions.fragment_colors != Conventions::FragmentColors::in_codes || scale == 0) return 0;
+  return (conventions.color_rounding == Conventions::Rounding::nearest ? 0.5 : 1) / scale;
 }
 
 bool FragmentColor::has_no_alpha() const {

@@ -32,6 +32,7 @@ struct Conventions {
   enum class LevelOfDetail { per_pixel, per_square, approximate };
   enum class Blending { in_float, in_codes };
   enum class FogFactor { per_fragment, per_vertex };
+  enum class FragmentColors { in_float, in_codes };
   enum class Magnified { up_to_half, up_to_zero };
   enum class HalfWay { down, either };
 
@@ -63,6 +64,7 @@ struct Conventions {
   AlphaTest alpha_test = AlphaTest::in_codes;
   Blending blending = Blending::in_float;
   FogFactor fog_factor = FogFactor::per_fragment;
+  FragmentColors fragment_colors = FragmentColors::in_float;
   LevelOfDetail level_of_detail = LevelOfDetail::per_pixel;
   Magnified magnified = Magnified::up_to_half;
   HalfWay half_way_level = HalfWay::down;
@@ -114,6 +116,8 @@ inline constexpr std::array<Name, 2> kNamesOf<Conventions::Blending> = {"in_floa
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::FogFactor> = {"per_fragment", "per_vertex"};
 template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::FragmentColors> = {"in_float", "in_codes"};
+template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Magnified> = {"up_to_half", "up_to_zero"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::HalfWay> = {"down", "either"};
@@ -164,6 +168,8 @@ void each_choice(Visit visit) {
   visit(ConventionWords{"provoking_vertex", "the vertex that colours a flat triangle", false}, &C::provoking_vertex);
   visit(ConventionWords{"alpha_test", "the numbers that are compared", true}, &C::alpha_test);
   visit(ConventionWords{"blending", "the numbers that are blended", true}, &C::blending);
+  visit(ConventionWords{"fragment_colors", "the numbers that colours and texels are before they are merged", true},
+        &C::fragment_colors);
   visit(ConventionWords{"fog_factor", "where fog factors are computed (OpenGL 2.1, 3.10)", true}, &C::fog_factor);
   visit(ConventionWords{"level_of_detail", "per pixel, per square of 2 x 2 pixels, or approximated (OpenGL 2.1, 3.8.8)",
                         true},

@@ -32,6 +32,7 @@ const std::vector<Probe>& probes() {
       {learn_offset_unit, {kOffsetWords.name}},
       {learn_float_offset_unit, {kFloatOffsetWords.name}},
       {learn_weights, {"texture_bits"}},
+      {learn_fragment_colors, {"fragment_colors"}},
       {learn_levels, {"level_of_detail"}},
       {learn_magnification, {"magnified"}},
       {learn_half_way, {"half_way_level"}},

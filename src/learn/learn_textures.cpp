@@ -88,16 +88,22 @@ bool are_of_rounding(const WeightErrors& errors, double step) {
   return errors.most - errors.least <= 2 * step + 2 * kCode && std::abs(errors.mean) <= step / 2 + kCode;
 }
 
-// Largest difference of texels that are not filtered from those that the scene asks for [codes].
-double texels_off(Prober& prober, auto code) {
-  constexpr int kTexels = 4, kPixels = kTexturedSize / kTexels;
-  Texture texture = texture_of(kTexels, code);
+// Largest difference of texels that are not filtered, multiplied by a grey, from those that the scene asks for [codes].
+double texels_off(Prober& prober, const std::string& name, int texels, auto code, float grey = 1) {
+  const int pixels = kTexturedSize / texels;  // of a texel
+  Texture texture = texture_of(texels, code);
   texture.sampler.min = MinFilter::nearest, texture.sampler.mag = MagFilter::nearest;
-  const Plane<glm::vec4> color = prober.draw(textured_frame("texels", std::move(texture), 1)).color;
+  Scene scene = textured_frame(name, std::move(texture), 1);
+  if (grey < 1) {
+    scene.draws[0].texture->environment = TextureEnvironment::modulate;
+    std::ranges::fill(scene.meshes[0].colors, glm::vec4(glm::vec3(grey), 1));
+  }
+  const Plane<glm::vec4> color = prober.draw(scene).color;
   double most = 0;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
-      if (x != y) most = farther(most, 255 * static_cast<double>(color(x, y).r) - code(x / kPixels, y / kPixels));
+      const double exact = static_cast<double>(grey) * code(x / pixels, y / pixels);
+      if (x != y) most = farther(most, 255 * static_cast<double>(color(x, y).r) - exact);
     }
   }
   return most;
@@ -141,7 +147,7 @@ void learn_weights(Prober& prober) {
   const double rounding = c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01;
   const bool are_float = most <= rounding;
   constexpr double kCode = 1;  // that other roundings of colours make
-  if (const double off = are_float ? 0 : texels_off(prober, code); off > rounding + kCode)
+  if (const double off = are_float ? 0 : texels_off(prober, "texels", 4, code); off > rounding + kCode)
     return prober.fits_none(
         words, fmt::format("{}; texels that are not filtered, {:.2f}: they are kept in fewer bits", evidence, off));
   const int bits = are_float ? C::kFloat : std::min(static_cast<int>(std::floor(-std::log2(step))), 12);
@@ -156,6 +162,21 @@ void learn_weights(Prober& prober) {
   }
   prober.learned.conventions.texture_bits = bits;
   prober.found(words, bits_text(bits), evidence);
+}
+
+// A grey of 100.4 codes times all codes. In codes, the grey is rounded, too.
+void learn_fragment_colors(Prober& prober) {
+  const ConventionWords words = words_of("fragment_colors");
+  if (!prober.are_linear) return prober.open(words, kNotLinear);
+  if (prober.lacks(words, {"color_rounding", "texture_bits"})) return;
+  C& c = prober.learned.conventions;
+  const auto code = [](int x, int y) { return 16 * y + x; };
+  const double most = texels_off(prober, "fragment_colors", 16, code, 100.4f / 255);
+  const double rounding = c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01;
+  const std::string evidence = fmt::format("256 texels times a colour, {:.2f} codes off at most", most);
+  if (!(most <= 2 * rounding)) return prober.fits_none(words, evidence);
+  c.fragment_colors = most <= rounding ? C::FragmentColors::in_float : C::FragmentColors::in_codes;
+  prober.found(words, name_of(c.fragment_colors), evidence);
 }
 
 namespace {

@@ -97,6 +97,7 @@ void learn_fog(Prober& prober);
 void learn_offset_unit(Prober& prober);
 void learn_float_offset_unit(Prober& prober);
 void learn_weights(Prober& prober);
+void learn_fragment_colors(Prober& prober);
 void learn_levels(Prober& prober);
 void learn_magnification(Prober& prober);
 void learn_half_way(Prober& prober);

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,20 @@
 #include "check/judge/stage_inputs.h"
 
 namespace plumbline::check {
+
+namespace {
+
+// Reason why the frame alone judges the stage's colours, by conventions that its records do not show; empty: none.
+std::string_view why_by_frame(const Scene& scene, Stage stage, const Conventions& conventions) {
+  if (stage == Stage::shade && fogs_by_vertices(scene, conventions))
+    return "its fog factors are of vertices: the frame's colours are judged";
+  const bool has_colors = stage == Stage::texture || stage == Stage::shade;
+  if (has_colors && conventions.fragment_colors == Conventions::FragmentColors::in_codes)
+    return "its fragments' colours are codes: the frame's colours are judged";
+  return "";
+}
+
+}  // namespace
 
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
                                       const RendererInfo* shown, const MadeStages& made, const Legal& legal) {
@@ -31,8 +46,8 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
       c.skip(name, stage, Outcome::unsupported, "its view volume is another");
       continue;
     }
-    if (stage == Stage::shade && fogs_by_vertices(scene, c.conventions)) {
-      c.skip(name, stage, Outcome::unsupported, "its fog factors are of vertices: the frame's colours are judged");
+    if (const std::string_view reason = why_by_frame(scene, stage, c.conventions); !reason.empty()) {
+      c.skip(name, stage, Outcome::unsupported, reason);
       continue;
     }
     if (shown != nullptr) {

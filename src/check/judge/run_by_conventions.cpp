@@ -284,6 +284,7 @@ bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage s
   const bool is_other_unit = unit(conventions) != unit(C());
   if (stage >= Stage::depth && is_other_unit && std::ranges::any_of(scene.draws, is_moved)) return true;
   if (stage >= Stage::shade && fogs_by_vertices(scene, conventions)) return true;
+  if (stage >= Stage::texture && conventions.fragment_colors == C::FragmentColors::in_codes) return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
 }

@@ -1,4 +1,5 @@
-// Renderers of others whose fog factors are those of vertices (OpenGL 2.1, 3.10), judged by their frames.
+// Renderers of others whose fog factors are those of vertices (OpenGL 2.1, 3.10), or whose fragments' colours are codes
+// (2.14.9), judged by their frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "check/judge/judge_single.h"
 #include "reference/exact/exact.h"
 #include "tests/check/suite_scenes.h"
-#include "tests/learn/fog_by_vertices.h"
+#include "tests/learn/other_colors.h"
 
 namespace plumbline::check {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using C = Conventions;
 
 // Verdict on the renderer's colours and depths.
-SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer> renderer, C::FogFactor declared) {
+SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer> renderer, const C& conventions) {
   const Scene scene = suite_scene(scene_name);
   const auto exact = exact::make_exact();
   const Reference references[] = {{"exact", exact.get()}};
@@ -26,10 +27,13 @@ SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer>
   Capture frame;
   frame.width = scene.frame.width, frame.height = scene.frame.height;
   frame.planes.color = drawn.color, frame.planes.depth = drawn.depth;
-  C conventions;
-  conventions.fog_factor = declared;
   const auto replayed = make_replayed_renderer(std::move(frame), scene, "test", conventions);
   return judge_single(scene, *replayed, references);
+}
+SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer> renderer, C::FogFactor declared) {
+  C conventions;
+  conventions.fog_factor = declared;
+  return verdict_of(scene_name, std::move(renderer), conventions);
 }
 bool is_right(const SceneVerdict& verdict) {
   return std::ranges::none_of(verdict.comparisons, [](const Comparison& c) { return c.outcome == Outcome::different; });
@@ -58,6 +62,38 @@ TEST(StrangersFog, LinearFactorsMayBeClampedBeforeOrAfterTheyAreInterpolated) {
   EXPECT_TRUE(is_right(verdict_of("fog/linear", pipeline::make_pipeline(), per_vertex))) << "which is the same";
   constexpr auto halved = [](const Fog& fog, float z_eye) { return pipeline::fog_factor<float>(fog, z_eye) / 2; };
   EXPECT_FALSE(is_right(verdict_of("fog/linear", test::make_fog_by_vertices<halved>(), per_vertex)));
+}
+
+TEST(StrangersColors, MayBeCodesBeforeTheyAreMergedWhereThatIsDeclared) {
+  C in_float, in_codes;
+  in_codes.fragment_colors = C::FragmentColors::in_codes;
+  const auto by_codes = [] { return pipeline::make_pipeline(test::stages_in_codes()); };
+  for (const char* scene : {"texture/floor_modulated", "texture/vertex_colors_flat", "fog/exp", "blend/halves"}) {
+    const SceneVerdict verdict = verdict_of(scene, by_codes(), in_codes);
+    EXPECT_TRUE(is_right(verdict)) << scene;
+    EXPECT_TRUE(judges_colors(verdict)) << scene;
+  }
+  EXPECT_FALSE(is_right(verdict_of("texture/floor_modulated", by_codes(), in_float)));
+}
+
+// A colour that no texture or fog changes is rounded once: truncated colours are wrong.
+TEST(StrangersColors, InCodesAreRoundedOnceWhereNoOtherStepIs) {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.merge = [](const pipeline::Color<float>& color, float scale) -> pipeline::Color<float> {
+    const auto down = [=](float v) { return std::floor(std::clamp(v, 0.0f, 1.0f) * scale); };
+    return {down(color.r), down(color.g), down(color.b), down(color.a)};
+  };
+  C in_codes;
+  in_codes.fragment_colors = C::FragmentColors::in_codes;
+  EXPECT_FALSE(is_right(verdict_of("interpolation/ramps", pipeline::make_pipeline(stages), in_codes)));
+  EXPECT_TRUE(is_right(verdict_of("interpolation/ramps", pipeline::make_pipeline(), in_codes)));
+  stages.shade = [](const pipeline::Surface& surface, bool front,
+                    const pipeline::SurfaceAttributes<float>& attributes) -> pipeline::Shaded {
+    pipeline::Color<float> color = pipeline::shade<float>(surface, front, attributes);
+    color.r -= 2.1f / 255;
+    return {color};
+  };
+  EXPECT_FALSE(is_right(verdict_of("texture/floor_modulated", pipeline::make_pipeline(stages), in_codes)));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// Fog factors that plumb learn finds.
+// Fog factors, and the numbers of fragments' colours, that plumb learn finds.
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "tests/learn/altered_renderers.h"
-#include "tests/learn/fog_by_vertices.h"
+#include "tests/learn/other_colors.h"
 
 namespace plumbline::learn {
 namespace {
@@ -23,6 +23,28 @@ TEST(LearnFog, FactorsOfVerticesAreFound) {
   EXPECT_EQ(learned(pipeline::make_pipeline()), expected);
   expected.fog_factor = C::FogFactor::per_vertex;
   EXPECT_EQ(learned(test::make_fog_by_vertices<pipeline::fog_factor<float>>()), expected);
+}
+
+TEST(LearnFragmentColors, CodesAreFound) {
+  C expected = ours();
+  expected.fragment_colors = C::FragmentColors::in_codes;
+  expected.blending = C::Blending::in_codes;  // of sources that are rounded
+  EXPECT_EQ(learned(pipeline::make_pipeline(test::stages_in_codes())), expected);
+}
+
+// Products that are shifted for divided: (a * b) >> 8.
+TEST(LearnFragmentColors, OtherProductsAreAFinding) {
+  pipeline::Stages stages = test::stages_in_codes();
+  stages.shade = [](const pipeline::Surface& surface, bool front,
+                    const pipeline::SurfaceAttributes<float>& attributes) -> pipeline::Shaded {
+    const pipeline::Color<float> right = test::shade_in_codes(surface, front, attributes).color;
+    if (!surface.texture) return {right};
+    const auto shifted = [](float v) { return std::floor(v * 255 * 255 / 256) / 255; };
+    return {{shifted(right.r), shifted(right.g), shifted(right.b), right.a}};
+  };
+  const C found = learned(pipeline::make_pipeline(stages));
+  EXPECT_EQ(std::ranges::count(found.open, "fragment_colors"), 1);
+  EXPECT_EQ(found.fragment_colors, C::FragmentColors::in_float);
 }
 
 TEST(LearnFog, AnotherDistanceIsAFinding) {

@@ -1,4 +1,4 @@
-// Our renderer with fog factors of vertices, interpolated as other attributes are (fog_factor per_vertex).
+// Our renderer by conventions of colours that OpenGL leaves open.
 #pragma once
 
 #include <algorithm>
@@ -43,13 +43,40 @@ inline pipeline::Shaded shade_by_fog_factor(const pipeline::Surface& surface, bo
   return {{f * color.r + (1 - f) * fog.r, f * color.g + (1 - f) * fog.g, f * color.b + (1 - f) * fog.b, color.a}};
 }
 
-/// `factor`: factors of vertices.
+/// `fog_factor` per_vertex: interpolated as other attributes are. `factor`: factors of vertices.
 template <auto factor>
 std::unique_ptr<Renderer> make_fog_by_vertices() {
   pipeline::Stages stages = pipeline::production_stages();
   stages.light = light_with_fog_factors<factor>;
   stages.shade = shade_by_fog_factor;
   return pipeline::make_pipeline(stages);
+}
+
+inline pipeline::Color<float> as_codes(const pipeline::Color<float>& color) {
+  const auto code = [](float v) { return std::round(std::clamp(v, 0.0f, 1.0f) * 255) / 255; };
+  return {code(color.r), code(color.g), code(color.b), code(color.a)};
+}
+
+inline pipeline::FilteredTexel<float> texel_in_codes(const pipeline::TextureSetup& t,
+                                                     const pipeline::TexCoords<float>& at,
+                                                     const pipeline::Gradients<float>& g) {
+  const pipeline::FilteredTexel<float> right = pipeline::texture<float>(t, at, g);
+  return {as_codes(right.color), right.lod};
+}
+
+inline pipeline::Shaded shade_in_codes(const pipeline::Surface& surface, bool front,
+                                       const pipeline::SurfaceAttributes<float>& attributes) {
+  pipeline::SurfaceAttributes<float> codes = attributes;
+  codes.color = as_codes(attributes.color);
+  return {as_codes(pipeline::shade<float>(surface, front, codes))};
+}
+
+/// `fragment_colors` in_codes, in frames of 8 bits: interpolated colours, texels and shaded colours are rounded.
+inline pipeline::Stages stages_in_codes() {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.texture = texel_in_codes;
+  stages.shade = shade_in_codes;
+  return stages;
 }
 
 }  // namespace plumbline::test
