@@ -102,6 +102,10 @@ TEST_F(Reports, FailuresNameStagePlaceNumbersAndCommand) {
     EXPECT_TRUE(contains(lines, part)) << part << " in " << lines;
   }
   EXPECT_FALSE(contains(lines, "merge"));
+  later.judge = check::JudgeId("exact", check::Kind::per_stage);
+  EXPECT_TRUE(contains(failure_lines(verdict_of({later, first}), {}, "again"), "wrong by itself, too: merge"));
+  later.outcome = Outcome::within;
+  EXPECT_FALSE(contains(failure_lines(verdict_of({later, first}), {}, "again"), "too"));
   EXPECT_EQ(failure_lines(verdict_of({compared(Outcome::equal), compared(Outcome::within, 1, 2),
                                       compared(Outcome::ambiguous_only), compared(Outcome::dispute)}),
                           {}, "repeat"),

@@ -41,6 +41,16 @@ std::vector<std::string_view> not_compared_as(const Comparison& c, const SceneVe
   return out;
 }
 
+// Stages other than `first` that are wrong on the candidate's own records of the stages before.
+std::vector<std::string_view> others_wrong(const SceneVerdict& verdict, Stage first) {
+  std::vector<std::string_view> out;
+  for (const Comparison& c : verdict.comparisons) {
+    if (c.judge.kind == check::Kind::per_stage && c.outcome == Outcome::different && c.stage != first)
+      out.push_back(name_of(c.stage));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string table_head() {
@@ -98,6 +108,9 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
       const bool legal = check::judges_legality(first->judge, first->stage);
       out += "\n  worst: " + check::to_string(w, legal ? "nearest legal" : "the reference", first->measurement.unit);
     }
+    if (const auto others = others_wrong(verdict, first->stage); !others.empty())
+      out += fmt::format("\n  wrong by itself, too: {}; plumb diagnose tells which one the picture shows",
+                         fmt::join(others, ", "));
     out += '\n';
   }
   if (!out.empty()) out += fmt::format("  repeat: {}\n", repeat_command);
