@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <string_view>
+#include <vector>
 
 #include "check/bounds/matched_by_primitive.h"
 #include "check/diagnose/known_causes.h"
@@ -36,6 +39,47 @@ void eye_space_is_the_world(Scene& scene) {
   scene.dialect = Dialect::gl;
   scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 }
+
+// Detector of fixed point: all numbers are multiples of 2^-16, and half of the expected ones or more are not.
+class FixedPoint {
+ public:
+  void add(const auto& is, const auto& expected) {
+    for (glm::length_t i = 0; i < is.length(); ++i) {
+      ++all_;
+      fixed_ += is_multiple(is[i]) ? 1 : 0;
+      expected_fixed_ += is_multiple(expected[i]) ? 1 : 0;
+    }
+  }
+  bool shows() const { return all_ > 0 && fixed_ == all_ && 2 * expected_fixed_ <= all_; }
+
+ private:
+  static bool is_multiple(double v) { return std::nearbyint(v * 0x1p16) == v * 0x1p16; }
+  std::size_t all_ = 0, fixed_ = 0, expected_fixed_ = 0;
+};
+
+bool has_fixed_matrices(const Evidence& e) {
+  const std::vector<Matrices<double>>&is = e.candidate.records.matrices, &expected = e.expected.records.matrices;
+  FixedPoint numbers;
+  for (std::size_t i = 0; i < std::min(is.size(), expected.size()); ++i) {
+    for (glm::length_t column = 0; column < 4; ++column) {
+      numbers.add(is[i].model_view[column], expected[i].model_view[column]);
+      numbers.add(is[i].projection[column], expected[i].projection[column]);
+    }
+  }
+  return numbers.shows();
+}
+
+bool has_fixed_vertices(const Evidence& e) {
+  const std::vector<Vertex<double>>&is = e.candidate.records.vertices, &expected = e.expected.records.vertices;
+  FixedPoint numbers;
+  for (std::size_t i = 0; i < std::min(is.size(), expected.size()); ++i) {
+    numbers.add(is[i].p_eye, expected[i].p_eye);
+    numbers.add(is[i].p_clip, expected[i].p_clip);
+  }
+  return numbers.shows();
+}
+constexpr std::string_view kFixedPoint =
+    "its numbers are multiples of 2^-16: fixed point, coarser than 1 part in 10^5 (OpenGL 2.1, 2.1.1)";
 
 // Clip planes as the pipeline numbers them: distance of p to right, left, top, bottom, near, far.
 double distance(const Vec4<double>& p, std::size_t plane) {
@@ -199,6 +243,8 @@ constexpr std::array kGeometryCauses = {
     made<[](Matrices<double>& m) { m.normal = Mat3<double>(m.model_view); }>(
         S::matrices, "matrices.normal_by_model_view",
         "the normal matrix is the model-view's, not its inverse transpose"),
+    seen(S::matrices, "matrices.fixed_point", kFixedPoint, has_fixed_matrices),
+    seen(S::vertex, "vertex.fixed_point", kFixedPoint, has_fixed_vertices),
     given<[](Matrices<double>& m) { m.normal = Mat3<double>(m.model_view); }>(
         S::vertex, "vertex.normals_by_model_view", "normals go by the model-view matrix, not its inverse transpose"),
     given<[](Draw& d) { d.normals = Normals::as_they_are; }>(
