@@ -90,6 +90,7 @@ constexpr auto kAlphaAsRgb = [](Merge& merge) {
   if (merge.blend) merge.blend->alpha = merge.blend->rgb;
 };
 constexpr auto kNoColorMask = [](Merge& merge) { merge.color_mask = glm::bvec4(true); };
+constexpr auto kNoAlphaMask = [](Merge& merge) { merge.color_mask.a = true; };
 
 Color<float> truncated_color(const Color<float>& color, float scale) {
   if (scale == 0.0f) return color;
@@ -223,6 +224,8 @@ constexpr std::array kMerge = {
           put<&Stages::logic, sides_of_logic_op_swapped>},
     Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge,
           put<&Stages::merge_state, merge_under<kNoColorMask>>},
+    Fault{"merge.alpha_mask_ignored", "alpha is written where it is masked", Stage::merge,
+          put<&Stages::merge_state, merge_under<kNoAlphaMask>>},
     Fault{"resolve.truncated", "the mean of a pixel's samples is truncated to a code, not rounded", Stage::resolve,
           put_resolve<truncated_mean>},
     Fault{"resolve.first_sample", "a pixel's first sample is taken for all", Stage::resolve, put_resolve<first_sample>},

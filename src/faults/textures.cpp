@@ -154,6 +154,13 @@ constexpr auto kReplaceForDecal = [](Draw& draw) {
 constexpr auto kNoEnvironmentColor = [](Draw& draw) {
   if (draw.texture) draw.texture->color = glm::vec4(0);
 };
+pipeline::Shaded texel_alpha_ignored(const pipeline::Surface& surface, bool front,
+                                     const TexturedAttributes& attributes) {
+  TexturedAttributes opaque = attributes;
+  opaque.texel.color.a = 1;
+  return {pipeline::shade<float>(surface, front, opaque)};
+}
+
 constexpr auto kNoFog = [](Draw& draw) { draw.fog.reset(); };
 
 pipeline::Shaded fogged_alpha(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
@@ -229,6 +236,8 @@ constexpr std::array kTextures = {
           put<&Stages::shade, shaded_under<kReplaceForDecal>>},
     Fault{"shade.no_environment_color", "the texture environment's colour is black", Stage::shade,
           put<&Stages::shade, shaded_under<kNoEnvironmentColor>>},
+    Fault{"shade.texel_alpha_ignored", "texels' alpha is taken for 1", Stage::shade,
+          put<&Stages::shade, texel_alpha_ignored>},
     Fault{"shade.fogged_alpha", "fog takes alpha too", Stage::shade, put<&Stages::shade, fogged_alpha>},
     Fault{"shade.fog_added", "fog is added to a colour, which does not fade into it", Stage::shade,
           put<&Stages::shade, fog_added>, "godotengine/godot#12454"},
