@@ -202,8 +202,8 @@ void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
 /// - An error of e in w multiplies the displacement of a quotient by w / (w - e); from e = w/2 on, beside the eye, the
 ///   point may be anywhere.
 /// - A point is displaced by C / w (float_displacement()), where C is a mean of the corners' C_i, weighted by b_i, plus
-///   a constant: b_i / w = e_i / det and 1/w are affine in the window. With g its slope, the displacement grows by up to
-///   g s over s pixels from the point nearest to a pixel. Such a point reaches the pixel if s <= moved + g s:
+///   a constant: b_i / w = e_i / det and 1/w are affine in the window. With g its slope, the displacement grows by up
+///   to g s over s pixels from the point nearest to a pixel. Such a point reaches the pixel if s <= moved + g s:
 ///   1 / (1 - g) times as far. From g = 1/2 on the largest displacement is taken for all.
 void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   const double of_w = kFloatRounding * t.roundings * t.size.w / t.w_min;

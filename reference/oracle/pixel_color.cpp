@@ -72,6 +72,8 @@ class FragmentColor {
   BoundedFour color() const;
   /// Whether alpha is 0 by any arithmetic: at all corners, and no texture replaces it.
   bool has_no_alpha() const;
+  /// Error of alpha, as alpha tests compare it, beyond that of the colour: of a last rounding that the frame repeats.
+  double rounding_of_alpha() const;
 
  private:
   bool is_two_sided() const { return draw_.lit && scene_.light_model.sides == LightModel::Sides::two; }
@@ -98,9 +100,13 @@ class FragmentColor {
   void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
   BoundedFour textured(const BoundedFour& color) const;
   void fog(BoundedFour& color) const;
-  // Largest error of a colour that is rounded to a code, where fragments' colours are codes. The frame rounds a code to
-  // itself: the last rounding counts where the colour is blended alone.
-  double rounding() const;
+  // Half a code, where fragments' colours are codes; else 0. The frame rounds a code to itself: the last rounding counts
+  // only where the colour is blended or encoded.
+  double half_code() const;
+  bool counts_last() const;
+  // Adds the error of a rounding to codes, whose middle lies above or below the colour where codes are rounded down or
+  // up. `has_side`: the error goes to that side, whatever the stages between.
+  void round(BoundedFour& color, double half, bool has_side = true) const;
   // Fog factor at the fragment.
   Bounded fog_factor_there() const;
 
@@ -123,28 +129,46 @@ BoundedFour FragmentColor::color() const {
     });
   }
   if (is_lit_per_fragment(draw_)) light_fragment(color, secondary);
-  const bool adds = draw_.lit && separate, is_blended = draw_.merge.blend.has_value();
-  const double of_last = is_blended ? rounding() : 0, before_sum = draw_.fog || adds ? rounding() : of_last,
-               before_texture = draw_.texture ? rounding() : before_sum;
-  color.bound += before_texture, secondary.bound += before_texture;
+  const bool adds = draw_.lit && separate;
+  const double half = half_code(), of_last = counts_last() ? half : 0, before_sum = draw_.fog || adds ? half : of_last,
+               before_texture = draw_.texture ? half : before_sum;
+  round(color, before_texture), round(secondary, before_texture);
   if (draw_.texture) {
+    using enum TextureEnvironment;
+    const TextureEnvironment environment = draw_.texture->environment;
     color = textured(color);
-    color.bound += rounding() + before_sum;  // of the texel, times at most 1, and of the result
+    round(color, half, environment == modulate || environment == replace);  // of the texel, times at most 1
+    if (environment == blend) round(color, half, false);                    // of the environment's colour
+    round(color, before_sum);
   }
   if (adds) color = {color_sum(color.value, secondary.value), color.bound + secondary.bound + kFloatRounding};
   if (is_two_sided() && site_.may_show_either_face(certain_)) color.bound = kInfinity;
   if (draw_.fog && std::isfinite(color.bound)) {
     fog(color);
-    color.bound += of_last;
+    round(color, of_last);
   }
   return color;
 }
 
-double FragmentColor::rounding() const {
-  const Conventions& conventions = site_.scene.conventions;
+double FragmentColor::half_code() const {
   const double scale = color_scale(scene_.frame.color);
-  if (conventions.fragment_colors != Conventions::FragmentColors::in_codes || scale == 0) return 0;
-  return (conventions.color_rounding == Conventions::Rounding::nearest ? 0.5 : 1) / scale;
+  const bool are_codes = site_.scene.conventions.fragment_colors == Conventions::FragmentColors::in_codes && scale > 0;
+  return are_codes ? 0.5 / scale : 0;
+}
+
+bool FragmentColor::counts_last() const {
+  return draw_.merge.blend || site_.scene.conventions.color_encoding == Conventions::Encoding::srgb;
+}
+
+void FragmentColor::round(BoundedFour& color, double half, bool has_side) const {
+  const double middle = 2 * middle_of(site_.scene.conventions.color_rounding);  // [half codes]
+  if (has_side) color.value -= middle * half;
+  color.bound += has_side ? half : (1 + std::abs(middle)) * half;
+}
+
+double FragmentColor::rounding_of_alpha() const {
+  const bool is_compared_so = site_.scene.conventions.alpha_test != Conventions::AlphaTest::in_codes;
+  return is_compared_so && !counts_last() ? 2 * half_code() : 0;
 }
 
 bool FragmentColor::has_no_alpha() const {
@@ -188,8 +212,10 @@ BoundedFour FragmentColor::textured(const BoundedFour& color) const {
   return bounded_textured_color(texture, *draw_.texture, color, place, rules);
 }
 
-// Interpolated factors of vertices lie between 0 and 1. A factor of linear fog that is interpolated and then clamped is
-// that of the interpolated distance; OpenGL does not say which of the two is done first.
+// Factors of vertices: the mesh's or, of a cut triangle, those of its pieces, at distances within [w_min, w_max]. Where
+// the factor is convex in the distance, the pieces' lies between that of the fragment's distance and the chord of the
+// whole range; exp2 is not, and has that range of factors. A factor of linear fog that is interpolated and then clamped
+// is that of the interpolated distance; OpenGL does not say which of the two is done first.
 Bounded FragmentColor::fog_factor_there() const {
   const Fog& fog = *draw_.fog;
   const BoundedFour z_eye = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.z_eye), c.z_eye_error}; });
@@ -199,10 +225,19 @@ Bounded FragmentColor::fog_factor_there() const {
       const Bounded f = fog_factor(fog, {c.z_eye, c.z_eye_error}, {16});
       return BoundedFour{glm::dvec4(f.value), f.error};
     });
-    const double f = std::clamp(of_vertices.value.x, 0.0, 1.0);
-    const double apart = fog.mode == Fog::Mode::linear ? std::abs(f - out.value) / 2 : 0;
-    out = apart > 0 ? Bounded{(f + out.value) / 2, apart + std::max(of_vertices.bound, out.error)}
-                    : Bounded{f, of_vertices.bound};
+    double least = std::clamp(of_vertices.value.x, 0.0, 1.0), most = least;
+    const auto include = [&](double f) { least = std::min(least, f), most = std::max(most, f); };
+    if (fog.mode == Fog::Mode::linear || site_.t.cut) include(out.value);
+    if (site_.t.cut) {
+      const bool has_range = site_.scene.perspective && site_.t.w_max > site_.t.w_min;
+      const double near = has_range ? site_.t.w_min : 0, far = has_range ? site_.t.w_max : kInfinity;
+      const double of_near = fog_factor(fog, {near, 0}, {16}).value,
+                   of_far = has_range ? fog_factor(fog, {far, 0}, {16}).value : 0;
+      const double share = has_range ? std::clamp((std::abs(z_eye.value.x) - near) / (far - near), 0.0, 1.0) : 0;
+      include(glm::mix(of_near, of_far, share));
+      if (fog.mode == Fog::Mode::exp2 || !has_range) include(of_near), include(of_far);
+    }
+    out = {(least + most) / 2, (most - least) / 2 + std::max(of_vertices.bound, most > least ? out.error : 0)};
   }
   out.error = std::isfinite(out.error) ? std::min(1.0, out.error) : 1;
   return out;
@@ -222,7 +257,7 @@ void set_color(const Scene& scene, const PixelSite& site, PixelHit& hit) {
   const BoundedFour color = fragment.color();
   hit.hit.color = color.value;
   hit.hit.color_bound = color.bound;
-  hit.alpha_bound = fragment.has_no_alpha() ? 0 : color.bound;
+  hit.alpha_bound = fragment.has_no_alpha() ? 0 : color.bound + fragment.rounding_of_alpha();
 }
 
 void color_hit(const Scene& scene, const Projected& projected, int px, int py, PixelHit& hit) {

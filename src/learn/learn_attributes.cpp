@@ -36,7 +36,7 @@ Shares shares_at(int x, const C& conventions) {
   const double s = (x + conventions.sample.x) / kFrameSize;
   return {s, (s / 16) / ((1 - s) / 2 + s / 16)};
 }
-// Whether the wall's grey at column x is near to this one.
+// Whether the colour at column x is this grey, to 2 codes and 0.3 of a column.
 bool is_grey(const Plane<glm::vec4>& color, int x, double grey) {
   const glm::dvec3 off = glm::abs(glm::dvec3(color(x, kFrameSize / 2)) - grey);
   return std::max({off.r, off.g, off.b}) < 2.0 / 255 + 0.3 / kFrameSize;
@@ -118,8 +118,8 @@ void learn_interpolation(Prober& prober) {
   prober.found(words, name_of(prober.learned.conventions.interpolation), evidence);
 }
 
-// A white wall in black fog. Between its ends the factors of the distance, and those between the ends' own, are up to
-// 30 codes apart.
+// White wall in black fog. Factors of the distance, and factors interpolated between the wall's ends, differ by up to 34
+// codes.
 void learn_fog(Prober& prober) {
   constexpr float kDensity = 0.125f;
   const ConventionWords words = words_of("fog_factor");

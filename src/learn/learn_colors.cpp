@@ -140,8 +140,9 @@ void learn_colors(Prober& prober) {
   prober.found(encoding, name_of(c.color_encoding), evidence);
 }
 
-// Alphas of 128.2 codes against 127.8, and of 128.4 against 128.1: greater as floats, and of one code. Codes that are
-// truncated or rounded up part the first two.
+// Alphas of 128.2 codes against 127.8, and of 128.4 against 128.1: greater as floats, and of one code. Truncated codes,
+// and codes rounded up, differ in the first pair. Alpha 128.1 is greater than 128.4 where the reference alone is
+// truncated.
 void learn_alpha_test(Prober& prober) {
   const ConventionWords words = words_of("alpha_test");
   const auto passes = [&](float alpha, float reference) {
@@ -150,12 +151,14 @@ void learn_alpha_test(Prober& prober) {
         AlphaTest{CompareFunc::greater, reference / 255};
     return prober.draw(scene).color(8, 4).r > 0.5f;  // not on the diagonal
   };
-  const bool first = passes(128.2f, 127.8f), second = passes(128.4f, 128.1f);
+  const bool first = passes(128.2f, 127.8f), second = passes(128.4f, 128.1f), third = passes(128.1f, 128.4f);
   const auto said = [](bool is_greater) { return is_greater ? "passes as greater than" : "is equal to"; };
   const std::string evidence = fmt::format("128.2 / 255 {} 127.8 / 255", said(first));
+  if (third) return prober.fits_none(words, "128.1 / 255 passes as greater than 128.4 / 255: one of two is a code");
   if (first != second)
-    return prober.fits_none(words, fmt::format("{}, 128.4 / 255 {} 128.1 / 255{}", evidence, said(second),
-                                               first ? ": codes are not rounded to nearest" : ""));
+    return prober.fits_none(words, fmt::format("{}, 128.4 / 255 {} 128.1 / 255: codes are not rounded to nearest, or "
+                                               "one of two is no code",
+                                               evidence, said(second)));
   prober.learned.conventions.alpha_test = first ? C::AlphaTest::in_float : C::AlphaTest::in_codes;
   prober.found(words, name_of(prober.learned.conventions.alpha_test), evidence);
 }
@@ -189,9 +192,11 @@ void learn_blending(Prober& prober) {
   };
   const C::Rounding rounding = prober.learned.conventions.color_rounding;
   const Plane<glm::vec4> color = drawn_either_way();
+  const bool has_codes = prober.learned.conventions.fragment_colors == C::FragmentColors::in_codes;
   double most = 0;
   for (int i = 0; i < kAll; ++i) {
-    const double a = alpha(i), first = a * 255 * over(i) + (1 - a) * code_under(i);
+    const double given = alpha(i), a = has_codes ? rounded(rounding, 255 * given) / 255 : given;
+    const double first = a * 255 * over(i) + (1 - a) * code_under(i);
     const double exact = a * 255 * over(i) + (1 - a) * rounded(rounding, first);
     most = farther(most, 255 * static_cast<double>(pixel_of(color, i).r) - exact);
   }

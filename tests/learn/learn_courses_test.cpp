@@ -120,6 +120,14 @@ TEST(LearnCourses, AlphasInTruncatedCodesAreAFinding) {
   EXPECT_TRUE(is_said(learned_of(std::floor), "codes are not rounded to nearest"));
   EXPECT_TRUE(is_said(learned_of(std::ceil), "codes are not rounded to nearest"));
   EXPECT_EQ(learned_of(std::round).alpha_test, C::AlphaTest::in_codes);
+  OfAlteredScenes of_references;
+  of_references.before = [](Scene& scene) {
+    for (Draw& draw : scene.draws) {
+      if (draw.alpha_test) draw.alpha_test->reference = std::floor(255 * draw.alpha_test->reference) / 255;
+    }
+    scene.frame.color = scene.draws[0].alpha_test ? ColorFormat::rgba32f : scene.frame.color;  // alphas as they are
+  };
+  EXPECT_TRUE(is_said(learn(of_references).conventions, "one of two is a code"));
 }
 
 }  // namespace

@@ -65,8 +65,9 @@ TEST(LearnTextures, TexelsOfFewBitsAreNoWeightsOfFewBits) {
   };
   const C found = learn(renderer).conventions;
   EXPECT_EQ(found.texture_bits, C::kFloat);
-  ASSERT_EQ(found.unexplained.size(), 1u);
-  EXPECT_NE(found.unexplained[0].find("they are kept in fewer bits"), std::string::npos) << found.unexplained[0];
+  EXPECT_TRUE(std::ranges::any_of(found.unexplained, [](const std::string& finding) {
+    return finding.find("they are kept in fewer bits") != std::string::npos;
+  }));
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST_F(Reports, FailuresNameStagePlaceNumbersAndCommand) {
   }
   EXPECT_FALSE(contains(lines, "merge"));
   later.judge = check::JudgeId("exact", check::Kind::per_stage);
-  EXPECT_TRUE(contains(failure_lines(verdict_of({later, first}), {}, "again"), "wrong by itself, too: merge"));
+  EXPECT_TRUE(contains(failure_lines(verdict_of({later, first}), {}, "again"), "wrong by themselves: merge"));
   later.outcome = Outcome::within;
   EXPECT_FALSE(contains(failure_lines(verdict_of({later, first}), {}, "again"), "too"));
   EXPECT_EQ(failure_lines(verdict_of({compared(Outcome::equal), compared(Outcome::within, 1, 2),

@@ -162,7 +162,8 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
   });
 }
 
-Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
+Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
+                                 const Conventions& conventions) {
   // No fragment has a colour where only the background is legal; merge judges the clear colour.
   const auto has_no_winner = [&](Meter& meter, int x, int y) {
     if (!is_cleared(answers_of_winner(legal, candidate, x, y))) return false;
@@ -171,7 +172,13 @@ Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, co
   };
   const auto holds = [](const LegalAnswer&, int, int) { return true; };
   const Conventions none;
-  const ColorRule rule{.stored = {none, 0}, .factor = factor, .may_clamp = scene.frame.color != ColorFormat::rgba32f};
+  const double scale = color_scale(scene.frame.color);
+  const bool are_codes = conventions.fragment_colors == Conventions::FragmentColors::in_codes && scale > 0;
+  const double codes = conventions.color_rounding == Conventions::Rounding::nearest ? 0.5 : 1;  // by the last rounding
+  const ColorRule rule{.stored = {none, 0},
+                       .factor = factor,
+                       .half_code = are_codes ? codes / scale + 4 * u : 0,
+                       .may_clamp = scene.frame.color != ColorFormat::rgba32f};
   return compare_legal_color(candidate.shaded, candidate, legal, rule, has_no_winner, holds);
 }
 

@@ -75,7 +75,8 @@ Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
                                 const DeclaredCodes& declared = {});
-Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);
+Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
+                                 const Conventions& conventions = {});
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
                                 const Conventions& conventions = {});
 

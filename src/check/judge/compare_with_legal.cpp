@@ -40,9 +40,11 @@ DeclaredCodes declared_codes(const SceneJudgement& c) {
   DeclaredCodes out;
   out.has_codes = !(d == undeclared()) && !is_open("depth_format");
   // The product by the largest code is rounded in float, too: by up to a code of 24 bits, 1/256 of one of 16. Depths of
-  // 16 bits beside stencil values are made of codes of 24, because OpenGL has no such format.
+  // 16 bits beside stencil values are made of codes of 24, because OpenGL has no such format; not those of a renderer
+  // that has 16 bits alone.
   const FrameFormat& frame = c.scene.frame;
-  const bool is_coarse = depth_scale(frame.depth) <= 65535 && frame.stencil == StencilFormat::none;
+  const bool is_made_of_24 = frame.stencil != StencilFormat::none && d.depth_format != Conventions::Depth::z16;
+  const bool is_coarse = depth_scale(frame.depth) <= 65535 && !is_made_of_24;
   const bool is_exact = d.depth_arithmetic == Conventions::DepthArithmetic::in_double && !is_open("depth_arithmetic");
   if (out.has_codes && (is_exact || is_coarse) && !is_open("depth_rounding")) out.rounding = d.depth_rounding;
   if (!is_exact) out.product_error = 2 * u * depth_scale(frame.depth);  // of the product, and of z as a float
@@ -68,7 +70,8 @@ void compare_with_legal(const SceneJudgement& c, const Legal& legal, Stage stage
     }
     case Stage::attributes:
     case Stage::shade:
-      return add([&](double f) { return compare_legal_shaded(c.scene, planes, legal, f); }, Stage::attributes);
+      return add([&](double f) { return compare_legal_shaded(c.scene, planes, legal, f, c.conventions); },
+                 Stage::attributes);
     case Stage::visibility: {
       Measurement m = compare_legal_winner(planes, legal);
       // Pixels are open where the snapping bound of an edge reaches their centre; the edges' length predicts how many.

@@ -20,8 +20,8 @@ namespace {
 std::string_view why_by_frame(const Scene& scene, Stage stage, const Conventions& conventions) {
   if (stage == Stage::shade && fogs_by_vertices(scene, conventions))
     return "its fog factors are of vertices: the frame's colours are judged";
-  const bool has_colors = stage == Stage::texture || stage == Stage::shade;
-  if (has_colors && conventions.fragment_colors == Conventions::FragmentColors::in_codes)
+  const bool has_colors = stage == Stage::attributes || stage == Stage::texture || stage == Stage::shade;
+  if (has_colors && has_codes_of_fragments(scene, conventions))
     return "its fragments' colours are codes: the frame's colours are judged";
   return "";
 }

@@ -45,7 +45,8 @@ std::vector<std::string_view> not_compared_as(const Comparison& c, const SceneVe
 std::vector<std::string_view> others_wrong(const SceneVerdict& verdict, Stage first) {
   std::vector<std::string_view> out;
   for (const Comparison& c : verdict.comparisons) {
-    if (c.judge.kind == check::Kind::per_stage && c.outcome == Outcome::different && c.stage != first)
+    const bool is_wrong = c.judge.kind == check::Kind::per_stage && c.outcome == Outcome::different;
+    if (is_wrong && c.stage != first && std::ranges::find(out, name_of(c.stage)) == out.end())
       out.push_back(name_of(c.stage));
   }
   return out;
@@ -109,8 +110,8 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
       out += "\n  worst: " + check::to_string(w, legal ? "nearest legal" : "the reference", first->measurement.unit);
     }
     if (const auto others = others_wrong(verdict, first->stage); !others.empty())
-      out += fmt::format("\n  wrong by itself, too: {}; plumb diagnose tells which one the picture shows",
-                         fmt::join(others, ", "));
+      out += fmt::format("\n  wrong by themselves{}: {}; plumb diagnose tells which one the picture shows",
+                         first->judge.kind == check::Kind::per_stage ? ", too" : "", fmt::join(others, ", "));
     out += '\n';
   }
   if (!out.empty()) out += fmt::format("  repeat: {}\n", repeat_command);

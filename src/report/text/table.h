@@ -14,8 +14,8 @@ std::string table_head();
 std::string table_rows(const check::SceneVerdict& verdict);
 /// A line for a scene that holds: numbers of its comparisons by outcome; or that nothing of it was judged.
 std::string scene_line(const check::SceneVerdict& verdict);
-/// For a scene that failed: the first different stage, its worst item, other stages that are wrong by themselves, stages
-/// whose lack of a judge is a failure, and the command that repeats it; else empty.
+/// For a scene that failed: the first different stage, its worst item, other stages that are wrong by themselves,
+/// stages whose lack of a judge is a failure, and the command that repeats it; else empty.
 std::string failure_lines(const check::SceneVerdict& verdict, std::span<const Stage> unjudged,
                           const std::string& repeat_command);
 /// A line per group (the part of a scene's name before its first '/'), sorted: numbers of scenes and of comparisons,

@@ -196,15 +196,15 @@ TEST(Causes, EachThatCanBeMadeIsTold) {
 // Matrices and vertices in fixed point of 16 fraction bits. Numbers of 20 fraction bits are no sign of it.
 TEST(Causes, FixedPointIsToldByItsNumbers) {
   const auto exact = exact::make_exact();
-  const Scene scene = suite_scene("camera/transform_chain");
-  const auto causes = [&](Stage stage, double unit) {
+  const auto causes = [&](Stage stage, double unit, const char* name = "camera/transform_chain", double off = 0) {
+    const Scene scene = suite_scene(name);
     Capture in = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
     const auto round = [=](auto& v) { v = glm::round(v / unit) * unit; };
     for (Matrices<double>& m : in.records.matrices) {
       for (int column = 0; stage == Stage::matrices && column < 4; ++column)
         round(m.model_view[column]), round(m.projection[column]);
     }
-    for (Vertex<double>& v : in.records.vertices) round(v.p_eye), round(v.p_clip);
+    for (Vertex<double>& v : in.records.vertices) round(v.p_eye), round(v.p_clip), v.p_eye.x += off;
     const Capture expected = exact->run_stage(scene, stage, in);
     std::set<std::string_view> out;
     for (const Cause& c : likely_causes({scene, stage, in, expected, exact.get()})) out.insert(c.name);
@@ -213,6 +213,8 @@ TEST(Causes, FixedPointIsToldByItsNumbers) {
   using Names = std::set<std::string_view>;
   EXPECT_EQ(causes(Stage::matrices, 0x1p-16), Names{"matrices.fixed_point"});
   EXPECT_EQ(causes(Stage::vertex, 0x1p-16), Names{"vertex.fixed_point"});
+  EXPECT_EQ(causes(Stage::matrices, 0x1p-16, "texture/floor_nearest"), Names{"matrices.fixed_point"});
+  EXPECT_EQ(causes(Stage::vertex, 0x1p-16, "camera/transform_chain", 0.25), Names{}) << "numbers of another mistake";
   EXPECT_EQ(causes(Stage::matrices, 0x1p-20), Names{});
   EXPECT_EQ(causes(Stage::vertex, 0x1p-20), Names{});
 }

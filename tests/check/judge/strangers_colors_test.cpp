@@ -52,8 +52,17 @@ TEST(StrangersFog, FactorsMayBeThoseOfVerticesWhereThatIsDeclared) {
     EXPECT_TRUE(judges_colors(verdict)) << scene;
     EXPECT_FALSE(is_right(verdict_of(scene, by_vertices(), per_fragment))) << scene;
   }
-  for (const char* scene : {"fog/exp", "fog/cut", "texture/floor_in_fog"})
-    EXPECT_FALSE(is_right(verdict_of(scene, pipeline::make_pipeline(), per_vertex))) << scene;
+  EXPECT_FALSE(is_right(verdict_of("fog/exp", pipeline::make_pipeline(), per_vertex)));
+}
+
+// Factors of a cut polygon's corners lie between those of the mesh's vertices and those of fragments.
+TEST(StrangersFog, FactorsOfCutTrianglesMayBeThoseOfTheCutCorners) {
+  using enum C::FogFactor;
+  constexpr auto halved = [](const Fog& fog, float z_eye) { return pipeline::fog_factor<float>(fog, z_eye) / 2; };
+  for (const char* scene : {"fog/cut", "texture/floor_in_fog"}) {
+    EXPECT_TRUE(is_right(verdict_of(scene, pipeline::make_pipeline(), per_vertex))) << scene << ", of tiny pieces";
+    EXPECT_FALSE(is_right(verdict_of(scene, test::make_fog_by_vertices<halved>(), per_vertex))) << scene;
+  }
 }
 
 TEST(StrangersFog, LinearFactorsMayBeClampedBeforeOrAfterTheyAreInterpolated) {
@@ -73,7 +82,8 @@ TEST(StrangersColors, MayBeCodesBeforeTheyAreMergedWhereThatIsDeclared) {
     EXPECT_TRUE(is_right(verdict)) << scene;
     EXPECT_TRUE(judges_colors(verdict)) << scene;
   }
-  EXPECT_FALSE(is_right(verdict_of("texture/floor_modulated", by_codes(), in_float)));
+  for (const char* scene : {"texture/floor_modulated", "texture/vertex_colors_flat"})
+    EXPECT_FALSE(is_right(verdict_of(scene, by_codes(), in_float))) << scene;
 }
 
 // A colour that no texture or fog changes is rounded once: truncated colours are wrong.
@@ -87,13 +97,33 @@ TEST(StrangersColors, InCodesAreRoundedOnceWhereNoOtherStepIs) {
   in_codes.fragment_colors = C::FragmentColors::in_codes;
   EXPECT_FALSE(is_right(verdict_of("interpolation/ramps", pipeline::make_pipeline(stages), in_codes)));
   EXPECT_TRUE(is_right(verdict_of("interpolation/ramps", pipeline::make_pipeline(), in_codes)));
-  stages.shade = [](const pipeline::Surface& surface, bool front,
-                    const pipeline::SurfaceAttributes<float>& attributes) -> pipeline::Shaded {
-    pipeline::Color<float> color = pipeline::shade<float>(surface, front, attributes);
-    color.r -= 2.1f / 255;
-    return {color};
+}
+
+// The shaded colours are off by that many tenths of a code.
+template <int tenths>
+pipeline::Shaded shade_off(const pipeline::Surface& surface, bool front,
+                           const pipeline::SurfaceAttributes<float>& attributes) {
+  pipeline::Color<float> color = pipeline::shade<float>(surface, front, attributes);
+  constexpr float kOff = tenths / 2550.0f;
+  return {{color.r + kOff, color.g + kOff, color.b + kOff, color.a}};
+}
+
+TEST(StrangersColors, InCodesAreOffToTheSideOfTheirRounding) {
+  const auto outcome = [](decltype(pipeline::Stages::shade) shade, C::Rounding rounding) {
+    pipeline::Stages stages = pipeline::production_stages();
+    stages.shade = shade;
+    C in_codes;
+    in_codes.fragment_colors = C::FragmentColors::in_codes;
+    in_codes.color_rounding = rounding;
+    return is_right(verdict_of("texture/floor_modulated", pipeline::make_pipeline(stages), in_codes));
   };
-  EXPECT_FALSE(is_right(verdict_of("texture/floor_modulated", pipeline::make_pipeline(stages), in_codes)));
+  using enum C::Rounding;
+  EXPECT_FALSE(outcome(shade_off<21>, nearest));
+  EXPECT_FALSE(outcome(shade_off<-21>, nearest));
+  EXPECT_FALSE(outcome(shade_off<21>, down));
+  EXPECT_TRUE(outcome(shade_off<-10>, down));
+  EXPECT_FALSE(outcome(shade_off<-40>, down));
+  EXPECT_FALSE(outcome(shade_off<-21>, up));
 }
 
 }  // namespace
