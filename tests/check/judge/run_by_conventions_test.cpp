@@ -301,5 +301,24 @@ TEST_F(ByConventions, OffsetsAreOtherwiseInFramesOfTheUnitsFormat) {
   }
 }
 
+TEST_F(ByConventions, ColorsAreOtherwiseInFogOfVerticesAndInCodes) {
+  C by_vertices, in_codes;
+  by_vertices.fog_factor = C::FogFactor::per_vertex, in_codes.fragment_colors = C::FragmentColors::in_codes;
+  EXPECT_FALSE(draws_otherwise(scene, by_vertices, Stage::shade)) << "no fog";
+  scene.draws[0].fog.emplace();
+  EXPECT_TRUE(draws_otherwise(scene, by_vertices, Stage::shade));
+  EXPECT_TRUE(draws_otherwise(scene, by_vertices, Stage::merge));
+  EXPECT_TRUE(draws_otherwise(scene, in_codes, Stage::attributes));
+  for (const C& c : {by_vertices, in_codes}) {
+    EXPECT_FALSE(draws_otherwise(scene, c, Stage::depth));
+    EXPECT_FALSE(draws_otherwise(scene, c, Stage::visibility));
+  }
+  scene.draws[0].alpha_test = AlphaTest{CompareFunc::greater, 0.5};
+  EXPECT_TRUE(draws_otherwise(scene, in_codes, Stage::visibility));
+  EXPECT_FALSE(draws_otherwise(scene, by_vertices, Stage::visibility)) << "fog leaves alpha alone";
+  scene.frame.color = ColorFormat::rgba32f;
+  EXPECT_FALSE(draws_otherwise(scene, in_codes, Stage::merge)) << "a frame without codes";
+}
+
 }  // namespace
 }  // namespace plumbline::check

@@ -18,8 +18,9 @@ namespace {
 
 using C = Conventions;
 
-// Verdict on the renderer's colours and depths.
-SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer> renderer, const C& conventions) {
+// Verdict on the renderer's colours and depths, or on all of its planes.
+SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer> renderer, const C& conventions,
+                        bool of_all_planes = false) {
   const Scene scene = suite_scene(scene_name);
   const auto exact = exact::make_exact();
   const Reference references[] = {{"exact", exact.get()}};
@@ -27,6 +28,7 @@ SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer>
   Capture frame;
   frame.width = scene.frame.width, frame.height = scene.frame.height;
   frame.planes.color = drawn.color, frame.planes.depth = drawn.depth;
+  if (of_all_planes) frame.planes = drawn;
   const auto replayed = make_replayed_renderer(std::move(frame), scene, "test", conventions);
   return judge_single(scene, *replayed, references);
 }
@@ -84,6 +86,23 @@ TEST(StrangersColors, MayBeCodesBeforeTheyAreMergedWhereThatIsDeclared) {
   }
   for (const char* scene : {"texture/floor_modulated", "texture/vertex_colors_flat"})
     EXPECT_FALSE(is_right(verdict_of(scene, by_codes(), in_float))) << scene;
+}
+
+TEST(StrangersColors, ShadedPlanesMayBeCodesToo) {
+  C in_float, in_codes;
+  in_codes.fragment_colors = C::FragmentColors::in_codes;
+  const auto verdict = [](const C& conventions) {
+    return verdict_of("interpolation/ramps", pipeline::make_pipeline(test::stages_in_codes()), conventions, true);
+  };
+  const auto outcome = [&](const C& conventions) {
+    for (const Comparison& c : verdict(conventions).comparisons) {
+      if (c.stage == Stage::attributes && was_compared(c)) return c.outcome;
+    }
+    return Outcome::unsupported;
+  };
+  EXPECT_TRUE(holds(outcome(in_codes)));
+  EXPECT_TRUE(is_right(verdict(in_codes)));
+  EXPECT_EQ(outcome(in_float), Outcome::different);
 }
 
 // A colour that no texture or fog changes is rounded once: truncated colours are wrong.

@@ -292,9 +292,10 @@ TEST(LegalDepths, AClearDepthBeneathDrawsWithoutDepthIsOfOneCode) {
 // not.
 TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
   using As = Conventions::Depth;
-  const auto outcome = [](DepthFormat format, Conventions::Rounding declared, double off, As of_all = As::as_asked) {
+  const auto outcome = [](DepthFormat format, Conventions::Rounding declared, double off, As of_all = As::as_asked,
+                          StencilFormat stencil = StencilFormat::none) {
     Scene scene = suite_scene("depth/interpenetrating");
-    scene.frame.depth = format;
+    scene.frame.depth = format, scene.frame.stencil = stencil;
     const auto exact = exact::make_exact();
     const Capture expected = exact->capture(scene, {.records = StageSet::all(), .legal = true});
     Capture mine;
@@ -323,6 +324,10 @@ TEST(LegalDepths, OfFewBitsAreHeldToTheirRoundingInAnyArithmetic) {
   EXPECT_NE(outcome(DepthFormat::z24, nearest, 0), Outcome::different);
   EXPECT_NE(outcome(DepthFormat::z16, nearest, 0.5, As::z16), Outcome::different) << "a renderer of 16 bits alone";
   EXPECT_EQ(outcome(DepthFormat::z16, nearest, 0, As::z16), Outcome::different);
+  EXPECT_NE(outcome(DepthFormat::z16, nearest, 0.5, As::z16, StencilFormat::s8), Outcome::different);
+  EXPECT_EQ(outcome(DepthFormat::z16, nearest, 0, As::z16, StencilFormat::s8), Outcome::different);
+  EXPECT_NE(outcome(DepthFormat::z16, nearest, 0, As::as_asked, StencilFormat::s8), Outcome::different)
+      << "codes of 16 bits made of codes of 24";
 }
 
 // Beside the cut by the near plane of [0,w], snapping turns a piece over, whose plane goes through snapped corners: the
