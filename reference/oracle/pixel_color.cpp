@@ -100,12 +100,12 @@ class FragmentColor {
   void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
   BoundedFour textured(const BoundedFour& color) const;
   void fog(BoundedFour& color) const;
-  // Half a code, where fragments' colours are codes; else 0. The frame rounds a code to itself: the last rounding counts
-  // only where the colour is blended or encoded.
+  // Half a code, where fragments' colours are codes; else 0.
   double half_code() const;
+  // Whether the last rounding counts: the colour is blended or encoded. Else the frame rounds a code to itself.
   bool counts_last() const;
-  // Adds the error of a rounding to codes, whose middle lies above or below the colour where codes are rounded down or
-  // up. `has_side`: the error goes to that side, whatever the stages between.
+  // Adds the error of a rounding to codes. Codes that are rounded down or up are off to one side; `has_side`: so is the
+  // colour.
   void round(BoundedFour& color, double half, bool has_side = true) const;
   // Fog factor at the fragment.
   Bounded fog_factor_there() const;

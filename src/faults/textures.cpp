@@ -103,7 +103,7 @@ Color<float> minified(const TextureSetup& t, const TexCoords<float>& at, float l
   return pipeline::sample<float>(never_magnified, at, level);
 }
 
-// The level below lambda, where the minification filter is one of `filters`.
+// Level below lambda, where the minification filter is one of `filters`.
 template <MinFilter... filters>
 FilteredTexel<float> level_below(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   FilteredTexel<float> out = pipeline::texture<float>(t, at, g);

@@ -18,7 +18,7 @@ using C = Conventions;
 
 constexpr int kFrameSize = 64;
 
-// A wall that goes from w = 2 at the left to w = 16 at the right, from one grey to another.
+// Wall that goes from w = 2 at the left to w = 16 at the right, from one grey to another.
 Scene receding_wall(const char* name, float left, float right) {
   Scene scene = probe_frame(name, kFrameSize, kFrameSize);
   scene.projection = Perspective{90, 1, 100};
@@ -118,7 +118,7 @@ void learn_interpolation(Prober& prober) {
   prober.found(words, name_of(prober.learned.conventions.interpolation), evidence);
 }
 
-// White wall in black fog. Factors of the distance, and factors interpolated between the wall's ends, differ by up to 34
+// White wall in black fog. Factors of the distance, and those interpolated between the wall's ends, differ by up to 34
 // codes.
 void learn_fog(Prober& prober) {
   constexpr float kDensity = 0.125f;

@@ -113,7 +113,7 @@ double texels_off(Prober& prober, const std::string& name, int texels, auto code
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
       const double exact = static_cast<double>(grey) * code(x / pixels, y / pixels);
-      // The diagonal may be nobody's. Samples at pixels' corners lie on borders of texels, but for these.
+      // Left out: the diagonal, which may be nobody's, and a texel's outer pixels, whose samples may lie on its border.
       if (x != y && is_inside(x) && is_inside(y))
         most = farther(most, 255 * static_cast<double>(color(x, y).r) - exact);
     }
@@ -183,7 +183,7 @@ void learn_weights(Prober& prober) {
   prober.found(words, bits_text(bits), evidence);
 }
 
-// A grey of 100.4 codes times all codes. In codes, the grey is rounded, too.
+// Grey of 100.4 codes times all codes. In codes, the grey is rounded, too.
 void learn_fragment_colors(Prober& prober) {
   const ConventionWords words = words_of("fragment_colors");
   if (!prober.are_linear) return prober.open(words, kNotLinear);

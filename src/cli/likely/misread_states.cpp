@@ -146,7 +146,7 @@ bool is_set(const DepthRange& range) { return range != DepthRange(); }
 bool is_set(bool writes_depth) { return !writes_depth; }
 bool is_set(const glm::bvec4& written) { return written != glm::bvec4(true); }
 
-// The member of a draw, or of its merge state.
+// Member of a draw, or of its merge state.
 template <auto member>
 auto& member_of(Draw& draw) {
   if constexpr (requires { draw.*member; }) {

@@ -110,8 +110,7 @@ TEST_F(MatrixRecords, OnlyTheExactReferenceSeesTheNormalMatrix) {
   EXPECT_STREQ(compare_matrices(other, records, 1).worst.place.field, "normal");
 }
 
-// The inverse of a model-view that was rounded to float: where entries of the normal matrix nearly cancel, many ULP
-// off.
+// Inverse of a model-view that was rounded to float: many ULP off where entries of the normal matrix nearly cancel.
 TEST_F(MatrixRecords, OfAnInversionInFloatMayBeOffByItsRoundings) {
   const glm::dmat3 m(1, 0.2, 0.5, 0.3, 0.9, 0.9, 0.1, 0.7 + 1e-9, 0.7);  // a cofactor is 0.9e-9
   records.matrices[0].model_view = glm::dmat4(m);

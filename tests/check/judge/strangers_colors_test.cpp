@@ -1,5 +1,5 @@
-// Renderers of others whose fog factors are those of vertices (OpenGL 2.1, 3.10), or whose fragments' colours are codes
-// (2.14.9), judged by their frames.
+// Renderers of others whose fog factors are those of vertices (OpenGL 2.1, 3.10), or whose fragments' colours are
+// codes, judged by their frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -118,7 +118,7 @@ TEST(StrangersColors, InCodesAreRoundedOnceWhereNoOtherStepIs) {
   EXPECT_TRUE(is_right(verdict_of("interpolation/ramps", pipeline::make_pipeline(), in_codes)));
 }
 
-// The shaded colours are off by that many tenths of a code.
+// Stage shade whose colours are off by that many tenths of a code.
 template <int tenths>
 pipeline::Shaded shade_off(const pipeline::Surface& surface, bool front,
                            const pipeline::SurfaceAttributes<float>& attributes) {
