@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/by_conventions.h"
 #include "reference/arithmetic/color_error.h"
 #include "reference/arithmetic/fog.h"
 #include "reference/arithmetic/light_bounds.h"
@@ -151,9 +152,8 @@ BoundedFour FragmentColor::color() const {
 }
 
 double FragmentColor::half_code() const {
-  const double scale = color_scale(scene_.frame.color);
-  const bool are_codes = site_.scene.conventions.fragment_colors == Conventions::FragmentColors::in_codes && scale > 0;
-  return are_codes ? 0.5 / scale : 0;
+  const bool are_codes = has_codes_of_fragments(scene_.frame, site_.scene.conventions);
+  return are_codes ? 0.5 / color_scale(scene_.frame.color) : 0;
 }
 
 bool FragmentColor::counts_last() const {

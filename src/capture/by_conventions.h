@@ -32,6 +32,11 @@ class SceneByConventions {
 /// The depth buffer's format: the convention's, or the frame's where that is as_asked.
 DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& conventions);
 
+/// Whether colours of the frame's fragments are codes of its format before they are merged.
+inline bool has_codes_of_fragments(const FrameFormat& frame, const Conventions& conventions) {
+  return conventions.fragment_colors == Conventions::FragmentColors::in_codes && color_scale(frame.color) > 0;
+}
+
 /// Maps a renderer's capture to OpenGL's conventions: reverses the rows of planes and fragments where `rows` is
 /// from_top; maps planes.depth and records.depth to [0,1], near plane at 0; moves window positions by 1/2 - sample
 /// [pixels]. Colours stay: their codes are judged by the rounding that the conventions declare.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <span>
 
+#include "capture/by_conventions.h"
 #include "check/bounds/units.h"
 #include "check/compare/compare_planes.h"
 #include "check/verdict/ledger.h"
@@ -171,13 +172,12 @@ Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, co
     return true;
   };
   const auto holds = [](const LegalAnswer&, int, int) { return true; };
-  const Conventions none;
-  const double scale = color_scale(scene.frame.color);
-  const bool are_codes = conventions.fragment_colors == Conventions::FragmentColors::in_codes && scale > 0;
-  const double codes = conventions.color_rounding == Conventions::Rounding::nearest ? 0.5 : 1;  // by the last rounding
-  const ColorRule rule{.stored = {none, 0},
+  Conventions rounding;  // shaded colours are not encoded
+  rounding.color_rounding = conventions.color_rounding;
+  const double scale = has_codes_of_fragments(scene.frame, conventions) ? color_scale(scene.frame.color) : 0;
+  const ColorRule rule{.stored = {rounding, scale},
                        .factor = factor,
-                       .half_code = are_codes ? codes / scale + 4 * u : 0,
+                       .half_code = scale > 0 ? 0.5 / scale + 4 * u : 0,
                        .may_clamp = scene.frame.color != ColorFormat::rgba32f};
   return compare_legal_color(candidate.shaded, candidate, legal, rule, has_no_winner, holds);
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/by_conventions.h"
 #include "capture/require_fitting.h"
 #include "check/compare/compare_bits.h"
 #include "check/judge/rows.h"
@@ -21,7 +22,7 @@ std::string_view why_by_frame(const Scene& scene, Stage stage, const Conventions
   if (stage == Stage::shade && fogs_by_vertices(scene, conventions))
     return "its fog factors are of vertices: the frame's colours are judged";
   const bool has_colors = stage == Stage::attributes || stage == Stage::texture || stage == Stage::shade;
-  if (has_colors && has_codes_of_fragments(scene, conventions))
+  if (has_colors && has_codes_of_fragments(scene.frame, conventions))
     return "its fragments' colours are codes: the frame's colours are judged";
   return "";
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/by_conventions.h"
 #include "capture/fragment_outcomes.h"
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
@@ -272,10 +273,6 @@ bool fogs_by_vertices(const Scene& scene, const Conventions& conventions) {
          std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.fog.has_value(); });
 }
 
-bool has_codes_of_fragments(const Scene& scene, const Conventions& conventions) {
-  return conventions.fragment_colors == C::FragmentColors::in_codes && color_scale(scene.frame.color) > 0;
-}
-
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage) {
   if (stage <= Stage::clip) return stage == Stage::clip && has_other_volume(conventions);
   const auto is_moved = [](const Draw& draw) { return draw.polygon_offset.units != 0; };
@@ -287,10 +284,9 @@ bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage s
   };
   const bool is_other_unit = unit(conventions) != unit(C());
   if (stage >= Stage::depth && is_other_unit && std::ranges::any_of(scene.draws, is_moved)) return true;
-  const bool is_of_colors = stage >= Stage::attributes && stage != Stage::visibility;
-  if (is_of_colors && stage >= Stage::shade && fogs_by_vertices(scene, conventions)) return true;
-  if ((is_of_colors || tests_alpha(scene)) && stage >= Stage::attributes && has_codes_of_fragments(scene, conventions))
-    return true;
+  if (stage >= Stage::shade && stage != Stage::visibility && fogs_by_vertices(scene, conventions)) return true;
+  const bool has_colors = stage >= Stage::attributes && (stage != Stage::visibility || tests_alpha(scene));
+  if (has_colors && has_codes_of_fragments(scene.frame, conventions)) return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
 }

@@ -14,9 +14,6 @@ bool has_other_volume(const Conventions& conventions);
 /// Whether a draw's fog factors are computed at vertices. Records of fragments do not hold these factors.
 bool fogs_by_vertices(const Scene& scene, const Conventions& conventions);
 
-/// Whether fragments' colours are codes of the frame's format before they are merged.
-bool has_codes_of_fragments(const Scene& scene, const Conventions& conventions);
-
 /// Whether the conventions make another stage than OpenGL's.
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage);
 
