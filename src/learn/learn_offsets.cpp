@@ -9,9 +9,9 @@
 
 namespace plumbline::learn {
 
-using C = Conventions;
-
 namespace {
+
+using C = Conventions;
 
 // Displacement towards 0 of a rectangle at a depth, by a polygon offset of so many units [window z].
 double moved_by(Prober& prober, const std::string& name, DepthFormat format, double depth, double units) {
