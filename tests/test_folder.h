@@ -5,11 +5,10 @@
 #include <stdlib.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "base/temporary_path.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 
@@ -21,11 +20,6 @@ class TestFolder : public testing::Test {
     std::filesystem::permissions(root_, std::filesystem::perms(0755));  // as folders usually are
   }
   ~TestFolder() override { std::filesystem::remove_all(root_); }
-
-  static std::string read(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
 
   std::filesystem::path root_;
 };

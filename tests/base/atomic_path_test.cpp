@@ -5,10 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -36,9 +35,9 @@ class AtomicPaths : public TestFolder {
 TEST_F(AtomicPaths, AFileIsWrittenWholeAndReplaced) {
   const std::string bytes("first\0line\r\n", 12);
   write_file(root_ / "a.txt", bytes);
-  EXPECT_EQ(read(root_ / "a.txt"), bytes);
+  EXPECT_EQ(test::text_of(root_ / "a.txt"), bytes);
   write_file(root_ / "a.txt", "x");
-  EXPECT_EQ(read(root_ / "a.txt"), "x");
+  EXPECT_EQ(test::text_of(root_ / "a.txt"), "x");
   const std::string longest(255, 'n');  // the hidden name beside it must fit as well
   write_file(root_ / longest, "y");
   EXPECT_EQ(entries(), (std::set<fs::path>{"a.txt", longest}));
@@ -49,7 +48,7 @@ TEST_F(AtomicPaths, AReplacedFileKeepsItsPermissions) {
   fs::permissions(root_ / "private", fs::perms(0600));
   write_file(root_ / "private", "new");
   EXPECT_EQ(fs::status(root_ / "private").permissions(), fs::perms(0600));
-  EXPECT_EQ(read(root_ / "private"), "new");
+  EXPECT_EQ(test::text_of(root_ / "private"), "new");
 }
 
 TEST_F(AtomicPaths, WithoutACommitNothingIsLeft) {
@@ -80,7 +79,7 @@ TEST_F(AtomicPaths, LinksAreWrittenThrough) {
   EXPECT_EQ(resolved(root_ / "far/."), fs::canonical(root_) / "far");
   for (const char* text : {"one", "two"}) {
     write_file(root_ / "absolute", text);
-    EXPECT_EQ(read(root_ / "far/target"), text);
+    EXPECT_EQ(test::text_of(root_ / "far/target"), text);
   }
   EXPECT_TRUE(fs::is_symlink(root_ / "absolute") && fs::is_symlink(root_ / "link"));
   fs::create_symlink("loop", root_ / "loop");
@@ -102,7 +101,7 @@ TEST_F(AtomicPaths, FilesReplaceNoFolderNoDeviceAndNothingThatMayNotBeWritten) {
     refused([&] { act(root_ / "none/a"); }, root_ / "none/a", "No such file or directory");
     refused([&] { act(""); }, "", "the name is empty");
   }
-  EXPECT_EQ(read(root_ / "folder/years"), "precious");
+  EXPECT_EQ(test::text_of(root_ / "folder/years"), "precious");
   EXPECT_EQ(entries(), (std::set<fs::path>{"folder", "folder/years", "pipe"}));
 }
 
@@ -130,7 +129,7 @@ TEST_F(AtomicPaths, WithoutPermissionNothingIsWritten) {
   if (root) {
     ASSERT_EQ(::setresuid(0, 0, 0), 0);
   }
-  EXPECT_EQ(read(root_ / "open/file"), "old");
+  EXPECT_EQ(test::text_of(root_ / "open/file"), "old");
   fs::permissions(root_ / "locked", fs::perms(0755));
 }
 
@@ -138,10 +137,10 @@ TEST_F(AtomicPaths, FilesAppearAllOrNone) {
   write_file(root_ / "a", "old");
   const OutputFile bad[] = {{root_ / "a", "new"}, {root_ / "b", "new"}, {root_ / "none/c", "new"}};
   refused([&] { write_files(bad); }, root_ / "none/c", "No such file");
-  EXPECT_EQ(read(root_ / "a"), "old");
+  EXPECT_EQ(test::text_of(root_ / "a"), "old");
   EXPECT_EQ(entries(), std::set<fs::path>{"a"});
   write_files(std::span(bad).first(2));
-  EXPECT_EQ(read(root_ / "a") + read(root_ / "b"), "newnew");
+  EXPECT_EQ(test::text_of(root_ / "a") + test::text_of(root_ / "b"), "newnew");
 }
 
 TEST_F(AtomicPaths, AFolderIsReplacedOnlyWhereItHoldsNothingElse) {

@@ -14,6 +14,7 @@
 #include "painter/painter.h"
 #include "pipeline/render.h"
 #include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline::pipeline {
 namespace {
@@ -43,9 +44,8 @@ int run() {
   std::vector<std::unique_ptr<Painter>> painters;
   for (const SimdTarget& target : simd_targets()) painters.push_back(std::make_unique<Painter>(1, target));
   for (int threads = 2; threads <= 8; ++threads) painters.push_back(std::make_unique<Painter>(threads));
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   int differing = 0;
-  for (const std::filesystem::path& file : find_scenes(folder)) {
+  for (const std::filesystem::path& file : suite_files()) {
     const Scene scene = load_scene(file, {});
     const std::uint64_t definition = hash(render(scene, production_stages()));
     fmt::print("{:016x} {}\n", definition, scene.name);

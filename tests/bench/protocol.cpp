@@ -10,6 +10,7 @@
 #include "base/supervise.h"
 #include "cli/options/program_argument.h"
 #include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 int main() {
   using namespace plumbline;
@@ -19,8 +20,7 @@ int main() {
   supervise();
   const auto renderer = cli::make_program({.command = PLUMBLINE_C_RENDERER " {serve}"});
   std::vector<Scene> scenes;
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-  for (const std::filesystem::path& file : find_scenes(folder)) {
+  for (const std::filesystem::path& file : suite_files()) {
     Scene scene = load_scene(file);
     if (scene.frame.width * scene.frame.height > kMostPixels) continue;
     try {

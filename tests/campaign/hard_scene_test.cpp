@@ -1,5 +1,4 @@
 // Hard scenes: each is a scene file that is read, and together they reach every state of the scene format.
-#include <fstream>
 #include <set>
 #include <string>
 
@@ -10,7 +9,9 @@
 
 #include "campaign/scene_id.h"
 #include "scene/file/scene_file.h"
+#include "tests/suite.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::campaign {
 namespace {
@@ -20,10 +21,7 @@ using Json = nlohmann::json;
 /// States of the format by name: KIND.KEY, and KIND.KEY=VALUE of words and truth values.
 class States {
  public:
-  States() {
-    std::ifstream in(PLUMBLINE_SOURCE_DIR "/tests/scenes/scene.schema.json");
-    schema_ = Json::parse(in);
-  }
+  States() { schema_ = Json::parse(test::text_of(suite_folder() / "scene.schema.json")); }
 
   /// All states.
   std::set<std::string> all() const {
@@ -120,7 +118,7 @@ class HardSceneFiles : public TestFolder {};
 
 TEST_F(HardSceneFiles, AreRead) {
   for (std::uint64_t seed = 1; seed <= 4000; seed += 7) {
-    std::ofstream(root_ / "scene.json") << text_of(seed);
+    test::write_text(root_ / "scene.json", text_of(seed));
     EXPECT_NO_THROW(load_scene(root_ / "scene.json")) << text_of(seed);
   }
 }

@@ -11,6 +11,7 @@
 
 #include "campaign/journal.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::campaign {
 namespace {
@@ -125,13 +126,13 @@ TEST_F(Journals, ThatWereCutAreRefused) {
     Journal journal(file_, "terms");
     for (const Entry& of : entries(30)) journal.add(of);
   }
-  const std::string whole = read(file_);
+  const std::string whole = test::text_of(file_);
   for (const std::size_t cut : {1u, 10u, 100u, 300u, 600u, 1000u, 2000u, 4000u, 4096u, 8192u}) {
-    std::ofstream(file_, std::ios::binary) << whole.substr(0, whole.size() - cut);
+    test::write_text(file_, whole.substr(0, whole.size() - cut));
     SCOPED_TRACE(cut);
     expect_refused("expected the journal of a campaign, found ");
   }
-  std::ofstream(file_, std::ios::binary) << whole;
+  test::write_text(file_, whole);
   expect_same(Journal(file_, "terms").entries(), entries(30));
   run_sql("UPDATE signature SET stage = '' WHERE id = 'hard/6';");
   EXPECT_THROW(Journal(file_, "terms").entries(), JournalError);

@@ -1,11 +1,10 @@
 // Findings of campaigns, shrunk and since fixed: nothing differs any more.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include "tests/campaign/scene_trial.h"
+#include "tests/text_file.h"
 
 namespace plumbline::test {
 namespace {
@@ -22,9 +21,7 @@ TEST(Found, NothingDiffersAnyMore) {
   const auto files = found_scenes();
   EXPECT_GT(files.size(), 20u);
   for (const std::filesystem::path& file : files) {
-    std::stringstream text;
-    text << std::ifstream(file).rdbuf();
-    expect_holds(load_scene(file, with_suite_images()), "found/" + file.stem().string(), text.str());
+    expect_holds(load_scene(file, with_suite_images()), "found/" + file.stem().string(), test::text_of(file));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "campaign/scene_id.h"
 #include "tests/campaign/scene_trial.h"
 #include "tests/extent.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -68,8 +69,7 @@ std::vector<std::string> rows(const std::vector<fs::path>& scenes, const fs::pat
   std::vector<std::string> out;
   for (const fs::path& scene : scenes) {
     const fs::path name = scene.parent_path().filename() / scene.stem().concat(".txt");
-    std::ifstream in(into / name, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::string text = test::text_of(into / name);
     text.resize(std::min(text.size(), text.find("repeat: ")));  // the command, which names the other arguments
     if (!text.empty()) out.push_back(text);
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -14,6 +13,8 @@
 #include "reference/osmesa/osmesa.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
+#include "tests/suite.h"
+#include "tests/text_file.h"
 
 namespace plumbline::test {
 
@@ -25,13 +26,8 @@ inline std::filesystem::path findings_folder() {
 /// Assets of the build, and the suite's images, which the ordinary scenes name.
 inline SceneFileOptions with_suite_images() {
   SceneFileOptions options;
-  options.asset_folders.emplace_back(PLUMBLINE_SOURCE_DIR "/tests/scenes/texture");
+  options.asset_folders.push_back(suite_folder() / "texture");
   return options;
-}
-
-inline void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
 }
 
 /// The rows that fail, a line for each.
@@ -60,7 +56,7 @@ inline check::SceneVerdict judge_by_all(const Scene& scene) {
 /// that a crash leaves it, too. `name`: of the scene, a path.
 inline void expect_holds(const Scene& scene, const std::string& name, const std::string& text) {
   const std::filesystem::path file = findings_folder() / (name + ".json");
-  write_text(file, text);
+  test::write_text(file, text);
   const std::string failed = failures(judge_by_all(scene));
   if (failed.empty()) {
     std::filesystem::remove(file);

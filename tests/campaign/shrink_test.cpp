@@ -1,5 +1,4 @@
 // Scenes made smaller: what shows the finding stays, and nothing else.
-#include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 #include "campaign/shrink.h"
 #include "scene/file/scene_file.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::campaign {
 namespace {
@@ -22,7 +22,7 @@ class Shrinking : public TestFolder {
   Shows shows(const std::function<bool(const Scene&, const Draw&)>& has) {
     return [this, has](const std::string& text) {
       ++asked_;
-      std::ofstream(root_ / "scene.json") << text;
+      test::write_text(root_ / "scene.json", text);
       try {
         const Scene scene = load_scene(root_ / "scene.json");
         return std::ranges::any_of(scene.draws, [&](const Draw& draw) { return has(scene, draw); });

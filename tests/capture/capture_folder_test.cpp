@@ -15,6 +15,7 @@
 
 #include "base/atomic_path.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -123,13 +124,13 @@ Capture make_capture() {
 
 class CaptureFolder : public TestFolder {
  protected:
-  static void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
   /// A good capture's folder. Made once: what was harmed since is written again, for making files takes longest.
   fs::path mended() {
     const fs::path folder = root_ / "harmed";
     if (good_.empty()) {
       write_capture(make_capture(), folder);
-      for (const auto& entry : fs::directory_iterator(folder)) good_[entry.path().filename()] = read(entry.path());
+      for (const auto& entry : fs::directory_iterator(folder))
+        good_[entry.path().filename()] = test::text_of(entry.path());
     }
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (!entry.is_regular_file() || entry.is_symlink() || !good_.contains(entry.path().filename())) {
@@ -137,7 +138,7 @@ class CaptureFolder : public TestFolder {
       }
     }
     for (const auto& [name, bytes] : good_) {
-      if (!fs::exists(folder / name) || read(folder / name) != bytes) write(folder / name, bytes);
+      if (!fs::exists(folder / name) || test::text_of(folder / name) != bytes) test::write_text(folder / name, bytes);
     }
     return folder;
   }
@@ -158,13 +159,13 @@ class CaptureFolder : public TestFolder {
   void refused_manifest(const std::string& from, const std::string& to, const std::vector<std::string>& texts) {
     refused(
         [&](const fs::path& folder) {
-          std::string text = read(folder / "manifest.json");
+          std::string text = test::text_of(folder / "manifest.json");
           std::erase_if(text, [](char c) { return c == '\n' || c == ' '; });
           const std::string squeezed = "plumblinecapture";
           text.replace(text.find(squeezed), squeezed.size(), "plumbline capture");
           const std::size_t at = text.find(from);
           ASSERT_NE(at, text.npos) << from << "\n" << text;
-          write(folder / "manifest.json", text.replace(at, from.size(), to));
+          test::write_text(folder / "manifest.json", text.replace(at, from.size(), to));
         },
         texts);
   }
@@ -173,10 +174,10 @@ class CaptureFolder : public TestFolder {
   void refused_value(const std::string& array, std::size_t index, T value, const std::vector<std::string>& texts) {
     refused(
         [&](const fs::path& folder) {
-          std::string bytes = read(folder / (array + ".bin"));
+          std::string bytes = test::text_of(folder / (array + ".bin"));
           ASSERT_LE((index + 1) * sizeof(T), bytes.size());
           std::memcpy(bytes.data() + index * sizeof(T), &value, sizeof(T));
-          write(folder / (array + ".bin"), bytes);
+          test::write_text(folder / (array + ".bin"), bytes);
         },
         texts);
   }
@@ -285,16 +286,16 @@ TEST_F(CaptureFolder, ReplacesACaptureAndNothingElse) {
   EXPECT_EQ(read_capture(root_ / "empty").renderer, "second");
 
   fs::create_directories(root_ / "mine");
-  write(root_ / "mine/thesis.txt", "text");
+  test::write_text(root_ / "mine/thesis.txt", "text");
   EXPECT_THROW(write_capture(a, root_ / "mine"), OutputError);
   EXPECT_THROW(write_capture(a, root_ / "mine/thesis.txt"), OutputError);
   EXPECT_THROW(write_capture(a, root_ / "mine/thesis.txt/a"), OutputError);
-  EXPECT_EQ(read(root_ / "mine/thesis.txt"), "text");
-  write(root_ / "empty/notes.txt", "text");  // beside a capture's files
+  EXPECT_EQ(test::text_of(root_ / "mine/thesis.txt"), "text");
+  test::write_text(root_ / "empty/notes.txt", "text");  // beside a capture's files
   EXPECT_THROW(write_capture(a, root_ / "empty"), OutputError);
   EXPECT_THROW(require_writable_capture(root_ / "empty"), OutputError);
-  EXPECT_EQ(read(root_ / "empty/notes.txt"), "text");
-  write(root_ / "mine/manifest.json", R"({"name": "a web app's"})");
+  EXPECT_EQ(test::text_of(root_ / "empty/notes.txt"), "text");
+  test::write_text(root_ / "mine/manifest.json", R"({"name": "a web app's"})");
   fs::remove(root_ / "mine/thesis.txt");
   EXPECT_THROW(write_capture(a, root_ / "mine"), OutputError);
   EXPECT_NO_THROW(require_writable_capture(root_ / "none/yet"));

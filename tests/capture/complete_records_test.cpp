@@ -16,14 +16,13 @@
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/capture/differing_arrays.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
 
 using test::differing_records;
 using testing::IsEmpty;
-
-const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
 
 Capture whole_capture(const Scene& scene) {
   return pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
@@ -60,7 +59,7 @@ bool is_large(const Scene& scene) {
 
 TEST(CompleteRecords, leave_a_capture_in_order_as_it_is) {
   std::size_t scenes = 0;
-  for (const auto& file : find_scenes({{kScenes}})) {
+  for (const auto& file : suite_files()) {
     const Scene scene = load_scene(file, {});
     if (antialiased(scene) || is_large(scene) || scene.frame.width * scene.frame.height > 100'000) continue;
     Capture capture;
@@ -82,7 +81,7 @@ TEST(CompleteRecords, put_shuffled_records_in_order) {
   std::mt19937 random(7);
   for (const char* name :
        {"coverage/shared_edges", "texture/floor_modulated", "light/all_at_once", "clip/six_planes"}) {
-    const Scene scene = load_scene(kScenes + name + ".json", {});
+    const Scene scene = suite_scene(name);
     const Capture was = whole_capture(scene);
     Capture capture = was;
     shuffle_all(capture.records, random);
@@ -95,7 +94,7 @@ TEST(CompleteRecords, put_shuffled_records_in_order) {
 // Every scene whose polygons are filled.
 TEST(CompleteRecords, fill_what_follows_from_others) {
   std::size_t scenes = 0;
-  for (const auto& file : find_scenes({{kScenes}})) {
+  for (const auto& file : suite_files()) {
     const Scene scene = load_scene(file, {});
     const auto outlines = [&](const Draw& draw) {
       return scene.meshes[draw.mesh].topology == Topology::triangles && !is_filled(draw);
@@ -120,7 +119,7 @@ TEST(CompleteRecords, fill_what_follows_from_others) {
 // In double, of matrices in float: as near as the pipeline's own normals.
 TEST(CompleteRecords, fill_normals_by_the_matrices) {
   for (const char* name : {"light/normals_uneven", "light/normals_grown", "light/sphere_gouraud"}) {
-    const Scene scene = load_scene(kScenes + name + ".json", {});
+    const Scene scene = suite_scene(name);
     const Capture was = whole_capture(scene);
     Capture capture = was;
     for (Vertex<double>& v : capture.records.vertices) v.n_eye = {};
@@ -133,7 +132,7 @@ TEST(CompleteRecords, fill_normals_by_the_matrices) {
 }
 
 TEST(CompleteRecords, take_a_depth_in_float_for_the_nearest_code) {
-  const Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  const Scene scene = suite_scene("coverage/shared_edges");
   const Capture was = whole_capture(scene);
   Capture capture = was;
   for (double& z : capture.planes.depth.values()) z = static_cast<float>(z);
@@ -147,7 +146,7 @@ TEST(CompleteRecords, take_a_depth_in_float_for_the_nearest_code) {
 
 // A renderer's buffer may hold doubles: what it declares is as fine.
 TEST(CompleteRecords, take_depths_for_those_of_the_declared_format) {
-  const Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  const Scene scene = suite_scene("coverage/shared_edges");
   Conventions conventions;
   const auto stored = [&](Conventions::Depth format, double z, bool in_float) {
     conventions.depth_format = format;
@@ -177,7 +176,7 @@ void expect_refused(const Scene& scene, Capture capture, const std::string& says
 }
 
 TEST(CompleteRecords, refuse_what_nothing_follows_from) {
-  const Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  const Scene scene = suite_scene("coverage/shared_edges");
   for (const double odd : {std::nan(""), HUGE_VAL, -1e300, 0x1p23}) {
     Capture capture = whole_capture(scene);
     capture.derived = {"window.snapped"};
@@ -219,7 +218,7 @@ TEST(CompleteRecords, refuse_what_nothing_follows_from) {
 
 // A vertex of the mesh may be a few roundings off, where clip positions are kept in another form.
 TEST(CompleteRecords, tell_cuts_from_vertices_within_four_roundings) {
-  const Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  const Scene scene = suite_scene("coverage/shared_edges");
   const auto cut = [&](double roundings) {
     Capture capture = whole_capture(scene);
     capture.derived = {"clip.cut"};
@@ -235,7 +234,7 @@ TEST(CompleteRecords, tell_cuts_from_vertices_within_four_roundings) {
 }
 
 TEST(CompleteRecords, snap_to_the_grid_of_the_conventions) {
-  const Scene scene = load_scene(kScenes + "cull/both_windings.json", {});
+  const Scene scene = suite_scene("cull/both_windings");
   const auto derived = [&](int bits, Conventions::Rounding rounding) {
     Capture capture = whole_capture(scene);
     capture.derived = {"window.snapped"};
@@ -256,7 +255,7 @@ TEST(CompleteRecords, snap_to_the_grid_of_the_conventions) {
 }
 
 TEST(CompleteRecords, clear_the_varyings_that_a_draw_does_not_carry) {
-  const Scene scene = load_scene(kScenes + "fog/per_draw.json", {});
+  const Scene scene = suite_scene("fog/per_draw");
   const Capture was = whole_capture(scene);
   Capture capture = was;
   const auto fill = [](auto& column, auto value) {
@@ -273,7 +272,7 @@ TEST(CompleteRecords, clear_the_varyings_that_a_draw_does_not_carry) {
 
 // A step of 1/256 pixel above the base, or below it; snapped to half a pixel, it lies on the base.
 TEST(CompleteRecords, face_what_is_not_culled) {
-  Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  Scene scene = suite_scene("coverage/shared_edges");
   const Capture whole = whole_capture(scene);
   const auto front = [&](double steps, int bits, Cull cull) {
     scene.draws[0].cull = cull;
@@ -299,7 +298,7 @@ TEST(CompleteRecords, face_what_is_not_culled) {
 }
 
 TEST(CompleteRecords, refuse_to_guess_the_facing_of_outlines) {
-  const Scene scene = load_scene(kScenes + "polygon_mode/wireframe.json", {});
+  const Scene scene = suite_scene("polygon_mode/wireframe");
   for (const char* column : {"window.front", "window.corners"}) {
     Capture capture = whole_capture(scene);
     capture.derived = {column};

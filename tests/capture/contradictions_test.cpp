@@ -9,6 +9,7 @@
 #include "capture/files/capture_folder.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -18,7 +19,7 @@ class Contradictions : public testing::Test {
   static Capture of(const std::string& name) {
     Request request;
     request.records = StageSet::all();
-    return pipeline::make_pipeline()->capture(load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name), request);
+    return pipeline::make_pipeline()->capture(suite_scene(name), request);
   }
   // The one line that is found after a change.
   template <class Change>
@@ -29,7 +30,7 @@ class Contradictions : public testing::Test {
     EXPECT_EQ(found.size(), 1u);
     return found.empty() ? "" : found.front();
   }
-  const Capture sound_ = of("clip/crowd.json");
+  const Capture sound_ = of("clip/crowd");
 };
 
 template <class T>
@@ -69,13 +70,13 @@ TEST_F(Contradictions, ColoursAsCodes) {
 }
 
 TEST_F(Contradictions, BrightColoursOfAFloatFrameAreNoCodes) {
-  Capture c = of("texture/first_scene.json");
+  Capture c = of("texture/first_scene");
   for (glm::vec4& color : c.planes.color.values()) color = {2, 2, 2, 1};
   for (const std::string& line : contradictions(c)) EXPECT_EQ(line.find("codes?"), std::string::npos) << line;
 }
 
 TEST_F(Contradictions, RowsUpsideDown) {
-  const Capture sky = of("texture/first_scene.json");  // above the floor nothing is drawn
+  const Capture sky = of("texture/first_scene");  // above the floor nothing is drawn
   const auto flipped = [&](auto plane) {
     Capture c = sky;
     turn_over(c.planes.*plane);
@@ -108,7 +109,7 @@ TEST_F(Contradictions, ColoursThatAreNotTheWinnersFragments) {
              }),
              "differ from shade.color of the winner's fragment");
   EXPECT_HAS(after([](Capture& c) { turn_over(c.planes.shaded); }), "; none, if its rows are turned over");
-  Capture textured = of("texture/globe.json");
+  Capture textured = of("texture/globe");
   EXPECT_TRUE(contradictions(textured).empty());
   for (glm::vec4& texel : textured.planes.texel.values()) texel.r *= 0.9f;
   ASSERT_EQ(contradictions(textured).size(), 1u);
@@ -141,9 +142,8 @@ TEST_F(Contradictions, TransposedMatrices) {
 }
 
 TEST_F(Contradictions, NoSoundCaptureOfTheSuiteHasAny) {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   const auto renderer = pipeline::make_pipeline();
-  for (const auto& file : find_scenes(folder)) {
+  for (const auto& file : suite_files()) {
     const Scene scene = load_scene(file);
     if (scene.meshes.front().triangles.size() > 20000 || antialiased(scene)) continue;
     Request request;

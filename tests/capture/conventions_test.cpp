@@ -1,6 +1,5 @@
 // Conventions: their file, their words, and what they make of captures and scenes.
 #include <filesystem>
-#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include "capture/files/conventions_file.h"
 #include "scene/json/json_tree.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -18,7 +18,7 @@ class ConventionsFile : public TestFolder {
  protected:
   C declared(const std::string& text) {
     const std::filesystem::path file = root_ / "conventions.json";
-    std::ofstream(file) << text;
+    test::write_text(file, text);
     return read_conventions(file);
   }
   std::string refusal(const std::string& text) {

@@ -6,11 +6,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "base/atomic_path.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -187,8 +187,7 @@ TEST_F(ImageFile, DepthExrHoldsFloats) {
   EXPECT_EQ(back(1, 0).r, 1);
   EXPECT_EQ(back(0, 1).r, 1e-10f);
   EXPECT_TRUE(std::isnan(back(1, 1).r));
-  std::ifstream in(root_ / "z.exr", std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = test::text_of(root_ / "z.exr");
   const char channels[] = "channels\0chlist\0\x13\0\0\0Z\0\x02\0\0\0";  // one channel, "Z", of type 2 (FLOAT)
   EXPECT_NE(bytes.find(std::string(channels, sizeof channels - 1)), bytes.npos);
 }
@@ -221,7 +220,7 @@ TEST_F(ImageFile, ChoosesByEndingAndLeavesNothingBehind) {
 
 TEST_F(ImageFile, RefusesWhatIsNoImage) {
   refused([&] { read_image(root_ / "none.png"); }, "none.png", "found none");
-  std::ofstream(root_ / "text.png") << "not an image";
+  test::write_text(root_ / "text.png", "not an image");
   refused([&] { read_image(root_ / "text.png"); }, "text.png", "cannot be read");
   write_image(root_ / "a.png", Plane<glm::vec4>(64, 64, glm::vec4(0.3f)));
   fs::resize_file(root_ / "a.png", fs::file_size(root_ / "a.png") / 2);

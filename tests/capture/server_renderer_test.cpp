@@ -12,6 +12,7 @@
 #include "capture/files/capture_folder.h"
 #include "capture/renderers/process_renderer.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -42,7 +43,7 @@ class Server : public TestFolder {
     spec.timeout = std::chrono::milliseconds{2000};
     spec.write_input = [](const Scene& scene, const fs::path& folder) {
       fs::create_directory(folder);
-      std::ofstream(folder / "name") << scene.name;
+      test::write_text(folder / "name", scene.name);
     };
     return make_process_renderer(std::move(spec));
   }
@@ -56,7 +57,7 @@ class Server : public TestFolder {
     }
     return "it did not fail";
   }
-  std::size_t starts() const { return read(root_ / "starts").size(); }
+  std::size_t starts() const { return test::text_of(root_ / "starts").size(); }
 
   Scene scene_;
 };

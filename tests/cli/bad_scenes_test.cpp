@@ -8,7 +8,6 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "scene/file/scene_file.h"
@@ -89,7 +88,7 @@ class BadScenes : public testing::Test {
 
   fs::path write(const std::string& name, const std::string& text) const {
     fs::create_directories((root_ / name).parent_path());
-    std::ofstream(root_ / name, std::ios::binary) << text;
+    test::write_text(root_ / name, text);
     return root_ / name;
   }
   /// Message about the scene, "@" for the folder of all; "none" if it is read.

@@ -14,7 +14,7 @@ class Campaign : public Cli {
   Outcome campaign(const std::string& folder, const std::string& options) const {
     return shell(fmt::format("{} campaign {} {}", PLUMBLINE_PLUMB, at(folder), options));
   }
-  std::string results(const std::string& folder) const { return read(folder_ / folder / "results.json"); }
+  std::string results(const std::string& folder) const { return test::text_of(folder_ / folder / "results.json"); }
 };
 
 }  // namespace plumbline

@@ -8,11 +8,12 @@ const std::string kFault = " --against exact --fault depth.truncated";
 class CheckInCi : public Cli {
  protected:
   std::string known(const std::string& scene, const std::string& expires) const {
-    write(folder_ / "known.json",
-          "{\"expectations\": [{\"scene\": \"" + scene +
-              "\", \"reference\": \"exact\", \"kind\": \"per_stage\", \"stage\": \"depth\", \"reason\": \"a test\", "
-              "\"issue\": \"none\", \"expires\": \"" +
-              expires + "\"}]}");
+    test::write_text(
+        folder_ / "known.json",
+        "{\"expectations\": [{\"scene\": \"" + scene +
+            "\", \"reference\": \"exact\", \"kind\": \"per_stage\", \"stage\": \"depth\", \"reason\": \"a test\", "
+            "\"issue\": \"none\", \"expires\": \"" +
+            expires + "\"}]}");
     return " --expect " + at("known.json") + " --today 2026-05-05";
   }
 };
@@ -27,9 +28,10 @@ TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
   EXPECT_FALSE(run.says("CTestMeasurementFile")) << "no ctest";
   EXPECT_TRUE(run.says("not asked: " + kOpenGl + ", embree"));
   EXPECT_TRUE(fs::exists(at("failures/coverage/shared_edges/index.html")));
-  EXPECT_NE(read(at("j.xml")).find("failures=\"1\""), std::string::npos);
-  EXPECT_NE(read(at("m.md")).find("| coverage/shared\\_edges | depth |"), std::string::npos) << read(at("m.md"));
-  EXPECT_TRUE(read(at("rows/coverage/shared_edges.txt")).ends_with("\nFAILED\n"));
+  EXPECT_NE(test::text_of(at("j.xml")).find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(test::text_of(at("m.md")).find("| coverage/shared\\_edges | depth |"), std::string::npos)
+      << test::text_of(at("m.md"));
+  EXPECT_TRUE(test::text_of(at("rows/coverage/shared_edges.txt")).ends_with("\nFAILED\n"));
 
   run = shell("CTEST_INTERACTIVE_DEBUG_MODE=1 " PLUMBLINE_PLUMB " check " + kSharedEdges + kFault + outputs);
   const std::size_t tag = run.text.find("<CTestMeasurementFile type=\"image/png\" name=\"");
@@ -39,12 +41,12 @@ TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
 
   run = plumb("check " + kSharedEdges + " --against exact" + outputs);
   EXPECT_EQ(run.code, 0) << run.text;
-  EXPECT_TRUE(read(at("rows/coverage/shared_edges.txt")).ends_with("\nholds\n"));
-  EXPECT_NE(read(at("j.xml")).find("failures=\"0\""), std::string::npos);
+  EXPECT_TRUE(test::text_of(at("rows/coverage/shared_edges.txt")).ends_with("\nholds\n"));
+  EXPECT_NE(test::text_of(at("j.xml")).find("failures=\"0\""), std::string::npos);
 }
 
 TEST_F(CheckInCi, folders_that_cannot_be_written_end_the_run_before_it_begins) {
-  write(at("file"), "");
+  test::write_text(at("file"), "");
   for (const char* option : {" --rows ", " --failures "}) {
     const Outcome run = plumb("check " + kSharedEdges + " --against exact" + option + at("file/rows"));
     EXPECT_EQ(run.code, 2);
@@ -76,7 +78,7 @@ TEST_F(CheckInCi, shards_come_to_the_whole_run) {
   for (const char* bad : {"0/2", "3/2", "2", "1/2x", "a/b", "' 1/2'", "+1/2", "1/"}) {
     EXPECT_EQ(plumb("check " + scenes + " --shard " + bad).code, 2) << bad;
   }
-  write(at("bad.json"), "{\"versions\": 1}");
+  test::write_text(at("bad.json"), "{\"versions\": 1}");
   const Outcome bad = plumb("report diff " + at("whole.json") + " " + at("bad.json"));
   EXPECT_EQ(bad.code, 2);
   EXPECT_TRUE(bad.says("bad.json: expected a file of \"format\": \"plumbline run\"")) << bad.text;
@@ -92,7 +94,7 @@ TEST_F(CheckInCi, what_breaks_is_named_by_the_diff) {
   EXPECT_EQ(diff.code, 1);
   EXPECT_TRUE(diff.says("newly broken: ")) << diff.text;
   EXPECT_TRUE(diff.says("coverage/shared_edges, exact, per stage, depth: within -> different")) << diff.text;
-  EXPECT_NE(read(at("d.json")).find("\"holds\": false"), std::string::npos);
+  EXPECT_NE(test::text_of(at("d.json")).find("\"holds\": false"), std::string::npos);
   EXPECT_EQ(plumb("report diff " + at("new.json") + " " + at("old.json")).code, 0) << "fixed";
 }
 

@@ -136,10 +136,11 @@ TEST_F(Cli, the_command_that_repeats_takes_no_file_for_an_option) {
 }
 
 TEST_F(Cli, a_note_tells_once_what_of_a_mesh_file_is_left_out) {
-  write(folder_ / "mesh.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  test::write_text(folder_ / "mesh.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
   const fs::path scene = folder_ / "scene.json";
-  write(scene,
-        R"({"description": "two draws", "draws": [{"mesh": {"file": "mesh.obj"}}, {"mesh": {"file": "mesh.obj"}}]})");
+  test::write_text(
+      scene,
+      R"({"description": "two draws", "draws": [{"mesh": {"file": "mesh.obj"}}, {"mesh": {"file": "mesh.obj"}}]})");
   const Outcome run = plumb("check --against exact " + scene.string());
   EXPECT_EQ(run.code, 0) << run.text;
   const std::string note =
@@ -281,13 +282,13 @@ TEST_F(Cli, json_and_page_are_written) {
   const Outcome run =
       plumb("check " + kScenes + "cull --against exact --json " + at("out.json") + " --report " + at("page"));
   EXPECT_EQ(run.code, 0) << run.text;
-  const std::string json = read(at("out.json"));
+  const std::string json = test::text_of(at("out.json"));
   for (const char* key :
        {"\"versions\"", "\"comparisons\"", "\"scene\"", "\"reference\"", "\"stage\"", "\"outcome\"", "\"pixels\"",
         "\"differing\"", "\"ambiguous\"", "\"max_difference\"", "\"unit\"", "\"tolerance\"", "\"worst\""}) {
     EXPECT_NE(json.find(key), std::string::npos) << key;
   }
-  EXPECT_NE(read(at("page/index.html")).find("cull/both_windings"), std::string::npos);
+  EXPECT_NE(test::text_of(at("page/index.html")).find("cull/both_windings"), std::string::npos);
   for (const char* kind : {".png", ".js"}) EXPECT_TRUE(fs::exists(at("page/cull/both_windings") + kind)) << kind;
   EXPECT_EQ(plumb("check " + kScenes + "cull --against exact --json " + at("no/such/out.json")).code, 2);
 }

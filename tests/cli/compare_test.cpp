@@ -67,8 +67,8 @@ TEST_F(Compare, takes_a_tolerance_as_a_number_or_a_fraction) {
 TEST_F(Compare, ends_2_where_it_cannot_compare) {
   for (const char* name : {"a.png", "same.png"})
     fs::copy(PLUMBLINE_SOURCE_DIR "/tests/walkthrough/right.png", at(name));
-  const std::string before = read(at("a.png"));
-  write(at("text.png"), "text");
+  const std::string before = test::text_of(at("a.png"));
+  test::write_text(at("text.png"), "text");
   fs::create_directories(folder_ / "empty");
   const auto refused = [&](const std::string& arguments, const std::string& why) {
     const Outcome run = plumb("compare " + arguments);
@@ -90,7 +90,7 @@ TEST_F(Compare, ends_2_where_it_cannot_compare) {
   refused(both + " --json " + a, "is read by this run");
   refused(both + " -o " + a, "is read by this run");
   refused(both + " --json " + at("no/such.json"), "No such file");
-  EXPECT_TRUE(read(a) == before) << "not overwritten";
+  EXPECT_TRUE(test::text_of(a) == before) << "not overwritten";
 }
 
 TEST_F(Compare, writes_the_difference_and_json) {
@@ -100,7 +100,7 @@ TEST_F(Compare, writes_the_difference_and_json) {
   const Plane<glm::vec4> difference = read_image(at("d.png"));
   EXPECT_EQ(difference(3, 1), glm::vec4(0, 1, 0, 1));
   EXPECT_EQ(difference(0, 0), glm::vec4(0, 0, 0, 1));
-  const auto json = nlohmann::json::parse(read(at("d.json")));
+  const auto json = nlohmann::json::parse(test::text_of(at("d.json")));
   EXPECT_EQ(json["tolerance"], 0);
   EXPECT_EQ(json["a"], at("a.png"));
   ASSERT_EQ(json["comparisons"].size(), 5u);
@@ -126,21 +126,21 @@ TEST_F(Compare, takes_two_captures) {
   const Outcome fault = compare("ours", "fault", "--json " + at("out.json"));
   EXPECT_EQ(fault.code, 1);
   EXPECT_TRUE(fault.says("first: window.snapped")) << fault.text;
-  EXPECT_TRUE(nlohmann::json::accept(read(at("out.json"))));
+  EXPECT_TRUE(nlohmann::json::accept(test::text_of(at("out.json"))));
   EXPECT_EQ(compare("ours", "again", "-o " + at("d.png")).code, 2);
   EXPECT_EQ(compare("ours", "again", "--json " + at("ours/manifest.json")).code, 2);
   // A capture without one stage: not equal, but where that is asked for.
-  auto manifest = nlohmann::json::parse(read(at("again/manifest.json")));
+  auto manifest = nlohmann::json::parse(test::text_of(at("again/manifest.json")));
   auto& arrays = manifest["arrays"];
   arrays.erase(std::find_if(arrays.begin(), arrays.end(), [](auto& a) { return a["name"] == "depth.value"; }));
-  write(at("again/manifest.json"), manifest.dump());
+  test::write_text(at("again/manifest.json"), manifest.dump());
   const Outcome part = compare("ours", "again");
   EXPECT_EQ(part.code, 1) << part.text;
   EXPECT_TRUE(part.says("A holds") && part.says("depth")) << part.text;
   EXPECT_EQ(compare("ours", "again", "--allow-missing").code, 0);
   EXPECT_EQ(compare("fault", "again", "--allow-missing").code, 1);
   manifest["arrays"] = nlohmann::json::array();
-  write(at("again/manifest.json"), manifest.dump());
+  test::write_text(at("again/manifest.json"), manifest.dump());
   const Outcome nothing = compare("again", "again", "--allow-missing");
   EXPECT_EQ(nothing.code, 1);
   EXPECT_TRUE(nothing.says("nothing was compared")) << nothing.text;

@@ -15,10 +15,10 @@ class Compatibility : public Cli {
  protected:
   // The file, with one text in the place of another, which it holds once.
   std::string altered(const std::string& file, const std::string& from, const std::string& to) const {
-    std::string text = read(file);
+    std::string text = test::text_of(file);
     const std::size_t place = text.find(from);
     EXPECT_NE(place, std::string::npos) << file << ": " << from;
-    write(folder_ / "altered.json", text.replace(place, from.size(), to));
+    test::write_text(folder_ / "altered.json", text.replace(place, from.size(), to));
     return at("altered.json");
   }
 };
@@ -70,8 +70,8 @@ TEST_F(Compatibility, json_has_every_key_of_0_1) {
   EXPECT_EQ(plumb("diagnose " + kOld + "scene.json --fault merge.truncated --json " + at("diagnosis.json")).code, 1);
   for (const std::string name : {"run", "diagnosis"}) {
     std::set<std::string> gone;
-    const Json now = Json::parse(read(at(name + ".json")));
-    missing(Json::parse(read(kOld + name + ".json")), now, "", gone);
+    const Json now = Json::parse(test::text_of(at(name + ".json")));
+    missing(Json::parse(test::text_of(kOld + name + ".json")), now, "", gone);
     for (const std::string& key : gone) {
       // Names of renderers, and of tolerances: values, not keys of the format.
       if (!key.starts_with("/versions/") && !key.starts_with("/tolerances/")) ADD_FAILURE() << name << ": " << key;

@@ -29,7 +29,7 @@ TEST_F(Cli, diagnose_of_a_fault_ends_1_and_says_stage_numbers_cause_and_picture)
   EXPECT_TRUE(run.says("likely cause: covered sets differ only on edges, all of them extra"));
   EXPECT_TRUE(run.says("1 extra (!); lower left is pixel 32,32\n"));
   EXPECT_TRUE(run.says("\n!....")) << "the lowest row";
-  const std::string json = read(at("d.json"));
+  const std::string json = test::text_of(at("d.json"));
   for (const char* part : {"\"first\": \"coverage\"", "\"wrong\": [\n  \"coverage\"\n ]", "\"causes\": [",
                            "\"picture\": ", "\"title\": \"exact, per stage\"", "\"versions\": {"}) {
     EXPECT_NE(json.find(part), std::string::npos) << part << "\n" << json.substr(0, 2000);
@@ -96,7 +96,7 @@ TEST_F(Cli, diagnose_names_learn_where_no_known_fault_explains_a_programs_frame)
   const Outcome known = plumb(judged + " --fault window.half_pixel_off'");
   EXPECT_EQ(known.code, 1) << known.text;
   EXPECT_FALSE(known.says(said)) << known.text;
-  write(at("c.json"), R"({"format": "plumbline conventions", "version": 1})");
+  test::write_text(at("c.json"), R"({"format": "plumbline conventions", "version": 1})");
   const Outcome declared = plumb("diagnose " + kSharedEdges + " --against exact --conventions " + at("c.json") +
                                  " --program '" PLUMBLINE_C_RENDERER
                                  " {input} {output} && dd if=/dev/zero of={output}/planes.color.bin bs=1000 count=20 "
@@ -176,11 +176,11 @@ TEST_F(Cli, diagnose_of_a_picture_refuses_what_is_no_picture_of_the_scene) {
       plumb("diagnose " + kSharedEdges + " --picture " + at("color.exr") + " --depth " + at("color.exr"));
   EXPECT_EQ(depth.code, 2) << depth.text;
   EXPECT_TRUE(depth.says("color.exr: expected one channel of window z, found 4")) << depth.text;
-  write(at("cut.ppm"), "P6\n128 128\n255\n");
+  test::write_text(at("cut.ppm"), "P6\n128 128\n255\n");
   const Outcome cut = plumb("diagnose " + kSharedEdges + " --picture " + at("cut.ppm"));
   EXPECT_EQ(cut.code, 2) << cut.text;
   EXPECT_TRUE(cut.says("cut.ppm: cannot be read: the file ends before its pixels do")) << cut.text;
-  write(at("no.png"), "no picture");
+  test::write_text(at("no.png"), "no picture");
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --picture " + at("no.png")).code, 2);
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --picture " + at("other.png") + " --fault depth.truncated").code, 2);
 }
@@ -188,9 +188,9 @@ TEST_F(Cli, diagnose_of_a_picture_refuses_what_is_no_picture_of_the_scene) {
 TEST_F(Cli, diagnose_writes_a_page_with_the_pixels_history_or_nothing) {
   const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact --pixel 32,32 --report " + at("page"));
   EXPECT_EQ(run.code, 0) << run.text;
-  EXPECT_NE(read(at("page/index.html")).find("pixel 32,32 of"), std::string::npos);
+  EXPECT_NE(test::text_of(at("page/index.html")).find("pixel 32,32 of"), std::string::npos);
   fs::create_directories(at("full"));
-  write(at("full/other"), "");
+  test::write_text(at("full/other"), "");
   const Outcome full = plumb("diagnose " + kSharedEdges + " --against exact --report " + at("full"));
   EXPECT_EQ(full.code, 2);
   EXPECT_FALSE(full.says("wrong by itself")) << "before the work";

@@ -13,7 +13,7 @@ TEST_F(Cli, a_pixels_history_follows_the_diagnosis) {
   ASSERT_NE(history, std::string::npos) << run.text;
   EXPECT_NE(run.text.find("winner: depth ", history), std::string::npos) << run.text;
   EXPECT_NE(run.text.find("scissor: not in the box from 0,0", history), std::string::npos) << run.text;
-  const std::string json = read(at("out.json"));
+  const std::string json = test::text_of(at("out.json"));
   EXPECT_NE(json.find("\"pixel_history\": {"), std::string::npos);
   EXPECT_NE(json.find("\"fate\": \"winner\""), std::string::npos);
 }
@@ -26,7 +26,8 @@ TEST_F(Cli, a_pixels_history_is_by_the_conventions) {
   const Outcome none = plumb(by);
   EXPECT_TRUE(none.says("exact: legal here: primitive 24,")) << none.text;
   EXPECT_TRUE(none.says(" = code ")) << none.text;
-  write(at("c.json"), R"({"format": "plumbline conventions", "version": 1, "sample": [0, 0], "depth_format": "z32f"})");
+  test::write_text(at("c.json"),
+                   R"({"format": "plumbline conventions", "version": 1, "sample": [0, 0], "depth_format": "z32f"})");
   const Outcome declared = plumb(by + " --conventions " + at("c.json"));
   EXPECT_TRUE(declared.says("exact: legal here: primitive 23,")) << declared.text;
   EXPECT_FALSE(declared.says(" = code ")) << declared.text;
@@ -35,7 +36,7 @@ TEST_F(Cli, a_pixels_history_is_by_the_conventions) {
 TEST_F(Cli, without_it_there_is_none) {
   const Outcome run = plumb("diagnose " + kWindows + " --against exact --json " + at("out.json"));
   EXPECT_FALSE(run.says("\npixel ")) << run.text;
-  EXPECT_EQ(read(at("out.json")).find("pixel_history"), std::string::npos);
+  EXPECT_EQ(test::text_of(at("out.json")).find("pixel_history"), std::string::npos);
 }
 
 TEST_F(Cli, a_bad_pixel_ends_the_run_with_the_frames_size) {

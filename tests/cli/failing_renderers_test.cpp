@@ -37,7 +37,7 @@ TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
     EXPECT_EQ(check.code, 1) << check.text;
     EXPECT_TRUE(check.says("failed cull/both_windings: ours, " + says)) << check.text;
     EXPECT_TRUE(check.says("repeat: ") && check.says(limits_of(fault))) << check.text;
-    EXPECT_NE(read(at("c.json")).find("\"failed\""), std::string::npos) << "the run is written all the same";
+    EXPECT_NE(test::text_of(at("c.json")).find("\"failed\""), std::string::npos) << "the run is written all the same";
     const Outcome diagnosis = plumb("diagnose " + kWindings + limits + "--fault endings." + fault);
     EXPECT_EQ(diagnosis.code, 1) << diagnosis.text;
     const std::string stage = says.substr(0, says.find(':'));
@@ -111,7 +111,7 @@ TEST_F(FailingRenderers, fail_one_scene_of_a_run) {
     EXPECT_TRUE(check.says(says)) << check.text;
     std::set<std::string> judged, failed;
     std::size_t failed_rows = 0;
-    const auto json = nlohmann::json::parse(read(at("run.json")));
+    const auto json = nlohmann::json::parse(test::text_of(at("run.json")));
     for (const auto& row : json.at("comparisons")) {
       const bool fails = row.at("outcome") == "failed";
       failed_rows += fails ? 1 : 0;

@@ -195,14 +195,14 @@ TEST_F(IncompleteCaptures, MayLeaveOutWhatFollowsFromOthers) {
     capture.renderer = "theirs";
     std::ranges::reverse(capture.records.polygons.polygons);
     write_capture(capture, at(folder));
-    auto manifest = nlohmann::json::parse(read(at(folder + "/manifest.json")));
+    auto manifest = nlohmann::json::parse(test::text_of(at(folder + "/manifest.json")));
     nlohmann::json kept = nlohmann::json::array();
     for (const auto& array : manifest["arrays"]) {
       if (!left_out.contains(array["name"].get<std::string>())) kept.push_back(array);
     }
     EXPECT_EQ(manifest["arrays"].size() - kept.size(), left_out.size());
     manifest["arrays"] = kept;
-    write(at(folder + "/manifest.json"), manifest.dump());
+    test::write_text(at(folder + "/manifest.json"), manifest.dump());
     const Outcome run = plumb("diagnose " + path + kByExactAndEmbree + " --capture " + at(folder));
     EXPECT_EQ(run.code, 0) << run.text;
     EXPECT_TRUE(run.says(says)) << run.text;

@@ -2,7 +2,6 @@
 // a locale's, for a test machine may have none.
 #include <clocale>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -31,6 +30,7 @@ std::lconv* localeconv_of_commas() {
 #define strtod strtod_of_commas
 #define localeconv localeconv_of_commas
 #include "src/kit/plumbline.h"
+#include "tests/text_file.h"
 #undef strtod
 #undef localeconv
 
@@ -40,7 +40,7 @@ namespace {
 class KitInALocaleOfCommas : public TestFolder {};
 
 TEST_F(KitInALocaleOfCommas, ReadsNumbers) {
-  std::ofstream(root_ / "manifest.json") << R"({"numbers": [1.5, -0.25e3, 12345678.9012345, 7]})";
+  test::write_text(root_ / "manifest.json", R"({"numbers": [1.5, -0.25e3, 12345678.9012345, 7]})");
   PlScene* scene = pl_open(root_.c_str());
   EXPECT_EQ(pl_number(scene, "numbers.0"), 1.5);
   EXPECT_EQ(pl_number(scene, "numbers.%d", 1), -250);

@@ -1,5 +1,4 @@
 // plumb learn, and what is judged by the conventions that it writes.
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +18,7 @@ TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(run.says("subpixel_bits      8")) << run.text;
   EXPECT_TRUE(run.says("blending           open           blend")) << run.text;
-  EXPECT_NE(read(at("c.json")).find("\"tie_rule\": \"left_bottom\""), std::string::npos);
+  EXPECT_NE(test::text_of(at("c.json")).find("\"tie_rule\": \"left_bottom\""), std::string::npos);
   EXPECT_TRUE(fs::exists(at("pictures/grid_x.png")));
   const Outcome by = plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json"));
   EXPECT_EQ(by.code, 0) << by.text;
@@ -33,17 +32,18 @@ TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
 
 // A server that draws nothing new after its eighth probe.
 TEST_F(Cli, learn_finds_that_a_server_keeps_a_state) {
-  write(at("mine"),
-        "#!/bin/sh\n"
-        "kept=$TMPDIR/kept; n=0\n"
-        "while IFS=\"$(printf '\\t')\" read -r in out; do\n" PLUMBLINE_C_RENDERER
-        " \"$in\" \"$out\" 2>/dev/null || { echo unsupported; continue; }\n"
-        "  n=$((n + 1)); color=planes.color.bin\n"
-        "  [ $n != 8 ] || cp -r \"$out\" \"$kept\"\n"
-        "  if [ $n -gt 8 ] && [ $(wc -c <\"$out/$color\") = $(wc -c <\"$kept/$color\") ]; then cp \"$kept/$color\" "
-        "\"$out\"; fi\n"
-        "  echo ok\n"
-        "done\n");
+  test::write_text(
+      at("mine"),
+      "#!/bin/sh\n"
+      "kept=$TMPDIR/kept; n=0\n"
+      "while IFS=\"$(printf '\\t')\" read -r in out; do\n" PLUMBLINE_C_RENDERER
+      " \"$in\" \"$out\" 2>/dev/null || { echo unsupported; continue; }\n"
+      "  n=$((n + 1)); color=planes.color.bin\n"
+      "  [ $n != 8 ] || cp -r \"$out\" \"$kept\"\n"
+      "  if [ $n -gt 8 ] && [ $(wc -c <\"$out/$color\") = $(wc -c <\"$kept/$color\") ]; then cp \"$kept/$color\" "
+      "\"$out\"; fi\n"
+      "  echo ok\n"
+      "done\n");
   fs::permissions(at("mine"), fs::perms::owner_all);
   const Outcome run = plumb("learn --program '" + at("mine") + " {serve}'");
   EXPECT_EQ(run.code, 1) << run.text;
@@ -53,12 +53,11 @@ TEST_F(Cli, learn_finds_that_a_server_keeps_a_state) {
 
 // Drops all arrays but colour and depth from a capture's manifest.
 void leave_the_frame(const std::string& path) {
-  std::ifstream in(path);
-  auto manifest = nlohmann::json::parse(in);
+  auto manifest = nlohmann::json::parse(test::text_of(path));
   std::erase_if(manifest.at("arrays").get_ref<nlohmann::json::array_t&>(), [](const nlohmann::json& array) {
     return array.at("name") != "planes.color" && array.at("name") != "planes.depth";
   });
-  std::ofstream(path) << manifest;
+  test::write_text(path, manifest.dump());
 }
 
 TEST_F(Cli, a_declared_tie_rule_is_judged_by_the_frame_alone) {
@@ -67,9 +66,9 @@ TEST_F(Cli, a_declared_tie_rule_is_judged_by_the_frame_alone) {
   leave_the_frame(at("capture/manifest.json"));
   const std::string by = "diagnose " + scene + " --against exact --capture " + at("capture");
   EXPECT_EQ(plumb(by).code, 0) << "any tie rule is legal";
-  write(at("c.json"), declared(R"("tie_rule": "left_top")"));
+  test::write_text(at("c.json"), declared(R"("tie_rule": "left_top")"));
   EXPECT_EQ(plumb(by + " --conventions " + at("c.json")).code, 0);
-  write(at("c.json"), declared(R"("tie_rule": "left_bottom")"));
+  test::write_text(at("c.json"), declared(R"("tie_rule": "left_bottom")"));
   const Outcome run = plumb(by + " --conventions " + at("c.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("coverage.top_for_bottom")) << run.text;
@@ -80,11 +79,11 @@ TEST_F(Cli, a_declared_tie_rule_is_no_difference_of_the_records) {
   const std::string scene = kScenes + "coverage/on_centres.json";
   ASSERT_EQ(plumb("capture " + scene + " " + at("capture") + " --fault coverage.top_for_bottom").code, 0);
   const std::string by = "diagnose " + scene + " --against exact --capture " + at("capture") + " --conventions ";
-  write(at("c.json"), declared(R"("tie_rule": "left_top")"));
+  test::write_text(at("c.json"), declared(R"("tie_rule": "left_top")"));
   const Outcome right = plumb(by + at("c.json"));
   EXPECT_EQ(right.code, 0) << right.text;
   EXPECT_TRUE(right.says("wrong by itself: none\n")) << right.text;
-  write(at("other.json"), declared(R"("tie_rule": "left_bottom")"));
+  test::write_text(at("other.json"), declared(R"("tie_rule": "left_bottom")"));
   const Outcome other = plumb(by + at("other.json"));
   EXPECT_EQ(other.code, 1) << other.text;
   EXPECT_TRUE(other.says("wrong by itself: coverage")) << other.text;
@@ -96,7 +95,7 @@ TEST_F(Cli, a_mistaken_convention_is_one_finding_and_the_rest_is_judged) {
   leave_the_frame(at("capture/manifest.json"));
   const std::string by = "diagnose " + kSharedEdges + " --against exact --capture " + at("capture");
   EXPECT_EQ(plumb(by).code, 1);
-  write(at("c.json"), declared(R"("rows": "from_top")"));
+  test::write_text(at("c.json"), declared(R"("rows": "from_top")"));
   const Outcome run = plumb(by + " --conventions " + at("c.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("rows: from_top, expected from_bottom")) << run.text;
@@ -104,14 +103,14 @@ TEST_F(Cli, a_mistaken_convention_is_one_finding_and_the_rest_is_judged) {
 }
 
 TEST_F(Cli, a_mistaken_convention_of_a_suite_ends_1_with_one_line) {
-  write(at("c.json"), declared(R"("color_rounding": "down")"));
+  test::write_text(at("c.json"), declared(R"("color_rounding": "down")"));
   const Outcome run = plumb("check " + kScenes + "cull" + kLearnedProgram + " --conventions " + at("c.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("convention color_rounding: down, expected nearest (how colours become codes)\n")) << run.text;
 }
 
 TEST_F(Cli, a_failure_is_repeated_by_the_conventions_too) {
-  write(at("c.json"), declared(R"("depth_range": "one_to_zero")"));
+  test::write_text(at("c.json"), declared(R"("depth_range": "one_to_zero")"));
   const Outcome run = plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("repeat: ") && run.says("' --conventions " + at("c.json") + "\n")) << run.text;
@@ -119,7 +118,7 @@ TEST_F(Cli, a_failure_is_repeated_by_the_conventions_too) {
 }
 
 TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
-  write(at("c.json"), declared(R"("open": ["blending", "texture_bits", "tie_rule"], "texture_bits": 10,
+  test::write_text(at("c.json"), declared(R"("open": ["blending", "texture_bits", "tie_rule"], "texture_bits": 10,
                                   "unexplained": ["one scene drawn twice differs"])"));
   const std::string by = kLearnedProgram + " --conventions " + at("c.json");
   const Outcome check = plumb("check " + kScenes + "cull" + by);
@@ -135,7 +134,7 @@ TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
 }
 
 TEST_F(Cli, conventions_that_are_none_are_refused) {
-  write(at("c.json"), declared(R"("rows": "sideways")"));
+  test::write_text(at("c.json"), declared(R"("rows": "sideways")"));
   const std::string with = " --conventions " + at("c.json");
   for (const std::string& line :
        {"check " + kSharedEdges + kLearnedProgram + with, "diagnose " + kSharedEdges + kLearnedProgram + with}) {

@@ -41,7 +41,7 @@ TEST_F(MatcherOfScenes, leaves_a_page_of_each_failure) {
 }
 
 TEST_F(MatcherOfScenes, keeps_its_finding_where_no_page_can_be_written) {
-  std::ofstream("plumbline_pages") << "a file";
+  test::write_text("plumbline_pages", "a file");
   const std::string said = said_of_black();
   EXPECT_NE(said.find("first different stage: "), std::string::npos) << said;
   EXPECT_NE(said.find("plumbline_pages"), std::string::npos) << said;

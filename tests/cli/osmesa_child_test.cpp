@@ -22,7 +22,7 @@ TEST(SoftpipeChild, agrees_with_us_but_for_ties_that_it_breaks_otherwise) {
   const auto child = softpipe();
   const auto ours = pipeline::make_pipeline();
   for (const char* name : {"clip/each_plane", "light/sphere_gouraud", "depth/interpenetrating"}) {
-    const Scene scene = load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/") + name + ".json", {});
+    const Scene scene = suite_scene(name);
     const Capture theirs = child->capture(scene, {.records = StageSet::all()});
     EXPECT_EQ(theirs.renderer, "softpipe");
     const Capture mine = ours->capture(scene, {.records = StageSet::all()});
@@ -39,7 +39,7 @@ TEST(SoftpipeChild, a_child_that_cannot_draw_fails_with_its_words) {
   spec.name = "broken";
   spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{output}", "--with", "no-such-renderer"};
   spec.shows = StageSet::all();
-  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/cull/both_windings.json", {});
+  const Scene scene = suite_scene("cull/both_windings");
   try {
     make_process_renderer(spec)->capture(scene, {});
     FAIL() << "it must throw";
@@ -105,7 +105,7 @@ TEST_F(Cli, softpipe_is_asked_only_by_name) {
 
 TEST_F(Cli, softpipe_finds_meshes_where_assets_allow) {
   fs::create_directories(folder_ / "the meshes");
-  write(folder_ / "the meshes/one.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+  test::write_text(folder_ / "the meshes/one.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
   const std::string scene = scene_file(R"({
     "description": "a mesh from another folder",
     "frame": {"width": 9, "height": 9},

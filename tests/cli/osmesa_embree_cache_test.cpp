@@ -72,7 +72,7 @@ TEST_F(Cache, ServesRunsAtTheSameTime) {
 }
 
 TEST_F(Cache, IsAFolder) {
-  write(folder_ / "file", "");
+  test::write_text(folder_ / "file", "");
   const Outcome run = plumb(fmt::format("check {} --cache {}", kSharedEdges, at("file")));
   EXPECT_EQ(run.code, 2);
   EXPECT_TRUE(run.says("--cache: " + at("file") + ": expected a folder")) << run.text;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "tests/cli/campaign.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -26,7 +27,7 @@ TEST_F(Campaign, OfAProgramThatDrawsTrianglesAloneHasScenesForIt) {
 }
 
 TEST_F(Campaign, OfAProgramNamesMistakesAmongItsConventions) {
-  write(folder_ / "c.json", R"({"format": "plumbline conventions", "version": 1, "rows": "from_top"})");
+  test::write_text(folder_ / "c.json", R"({"format": "plumbline conventions", "version": 1, "rows": "from_top"})");
   const std::string program = fmt::format(" --against exact --program '{} {{serve}}'", PLUMBLINE_C_RENDERER);
   const Outcome declared =
       campaign("declared", "--seeds 11..40 --generator ordinary --conventions " + at("c.json") + program);
@@ -51,9 +52,9 @@ TEST_F(Campaign, OfAProgramTellsFailuresApartAndNotCommands) {
 
 // Words about each scene, and about scenes before, tell no failures apart.
 TEST_F(Campaign, OfAProgramTellsFailuresApartByTheLastLineOfItsStderr) {
-  write(folder_ / "mine.sh",
-        "echo \"drawing $(cksum <\"$1/manifest.json\" | tr 0-9 a-j)\" >&2\n"
-        "grep -q stencil \"$1/manifest.json\" && echo 'no stencil' >&2 || echo 'no luck' >&2\nexit 3\n");
+  test::write_text(folder_ / "mine.sh",
+                   "echo \"drawing $(cksum <\"$1/manifest.json\" | tr 0-9 a-j)\" >&2\n"
+                   "grep -q stencil \"$1/manifest.json\" && echo 'no stencil' >&2 || echo 'no luck' >&2\nexit 3\n");
   const Outcome run = campaign(
       "c", "--seeds 1..12 --generator hard --against exact --program 'sh " + at("mine.sh") + " {input} {output}'");
   EXPECT_EQ(run.code, 1) << run.text;
@@ -72,7 +73,7 @@ TEST_F(Campaign, GivesAProgramTheTimeLimit) {
 }
 
 TEST_F(Campaign, OfAProgramWhoseWordsAreNoUtf8IsTold) {
-  write(folder_ / "mine.sh", "printf 'grob \\351\\nund mehr\\n' >&2; exit 3\n");
+  test::write_text(folder_ / "mine.sh", "printf 'grob \\351\\nund mehr\\n' >&2; exit 3\n");
   const Outcome run =
       campaign("c", "--seeds 1..1 --generator hard --program 'sh " + at("mine.sh") + " {input} {output}'");
   EXPECT_EQ(run.code, 1) << run.text;
@@ -81,10 +82,10 @@ TEST_F(Campaign, OfAProgramWhoseWordsAreNoUtf8IsTold) {
 
 // A program that is mended is another one.
 TEST_F(Campaign, OfAProgramThatWasChangedIsRefused) {
-  write(folder_ / "mine.sh", "exit 3\n");
+  test::write_text(folder_ / "mine.sh", "exit 3\n");
   const std::string options = "--seeds 1..1 --generator hard --judge-only --program 'sh " + at("mine.sh") + " {serve}'";
   ASSERT_EQ(campaign("c", options).code, 0);
-  write(folder_ / "mine.sh", "exit 4\n");
+  test::write_text(folder_ / "mine.sh", "exit 4\n");
   const Outcome run = campaign("c", options);
   EXPECT_EQ(run.code, 2) << run.text;
   EXPECT_TRUE(run.says("expected a journal of this campaign")) << run.text;
@@ -92,14 +93,14 @@ TEST_F(Campaign, OfAProgramThatWasChangedIsRefused) {
 
 // A server that fails from its second scene on: by itself, each scene is drawn.
 TEST_F(Campaign, OfAProgramTellsWhatDoesNotRepeat) {
-  write(folder_ / "mine",
-        "#!/bin/sh\n"
-        "while IFS=\"$(printf '\\t')\" read -r in out; do\n"
-        "  if [ -n \"$tired\" ]; then echo failed tired; continue; fi\n"
-        "  tired=yes\n"
-        "  " PLUMBLINE_C_RENDERER
-        " \"$in\" \"$out\" 2>/dev/null && echo ok || echo unsupported\n"
-        "done\n");
+  test::write_text(folder_ / "mine",
+                   "#!/bin/sh\n"
+                   "while IFS=\"$(printf '\\t')\" read -r in out; do\n"
+                   "  if [ -n \"$tired\" ]; then echo failed tired; continue; fi\n"
+                   "  tired=yes\n"
+                   "  " PLUMBLINE_C_RENDERER
+                   " \"$in\" \"$out\" 2>/dev/null && echo ok || echo unsupported\n"
+                   "done\n");
   fs::permissions(folder_ / "mine", fs::perms::owner_all);
   const std::string options = "--seeds 11..14 --generator ordinary --jobs 1 --against exact";
   const Outcome run = campaign("c", options + " --program '" + at("mine") + " {serve}'");
@@ -108,7 +109,8 @@ TEST_F(Campaign, OfAProgramTellsWhatDoesNotRepeat) {
       run.says("not repeated " + at("c/findings/merge-failed-program-failed-tired-program/scene.json") +
                ": merge, failed: program: failed: tired (against program); judged again, nothing can be judged"))
       << run.text;
-  EXPECT_TRUE(read(at("c/findings/merge-failed-program-failed-tired-program/scene.txt")).ends_with("\nnot repeated\n"));
+  EXPECT_TRUE(test::text_of(at("c/findings/merge-failed-program-failed-tired-program/scene.txt"))
+                  .ends_with("\nnot repeated\n"));
 }
 
 }  // namespace

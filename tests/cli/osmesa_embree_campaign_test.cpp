@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "tests/cli/campaign.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -35,18 +36,18 @@ TEST_F(Campaign, OfAFaultNamesItAndLeavesItsSmallestScene) {
   for (const char* name : {"scene.json", "found.json", "scene.txt", "scene/index.html"}) {
     EXPECT_TRUE(fs::exists(finding / name)) << name;
   }
-  EXPECT_LT(read(finding / "scene.json").size(), read(finding / "found.json").size());
+  EXPECT_LT(test::text_of(finding / "scene.json").size(), test::text_of(finding / "found.json").size());
   const std::string scene = (finding / "scene.json").string();
   const Outcome faulted = plumb(fmt::format("check {} --no-cache{}", scene, kTruncates));
   EXPECT_EQ(faulted.code, 1) << faulted.text;
   EXPECT_TRUE(faulted.says("first different stage: depth")) << faulted.text;
   EXPECT_EQ(plumb(fmt::format("check {} --no-cache", scene)).code, 0);
   // A known finding stays as it is, and is counted.
-  write(finding / "scene.txt", "mine");
+  test::write_text(finding / "scene.txt", "mine");
   const Outcome again = campaign("c", kTruncates);
   EXPECT_EQ(again.code, 1);
   EXPECT_TRUE(again.says("depth, different z")) << again.text;
-  EXPECT_EQ(read(finding / "scene.txt"), "mine");
+  EXPECT_EQ(test::text_of(finding / "scene.txt"), "mine");
 }
 
 TEST_F(Campaign, IsTheSameInPartsAndInOne) {
@@ -58,7 +59,7 @@ TEST_F(Campaign, IsTheSameInPartsAndInOne) {
   std::set<std::string> one, parts;
   for (const auto& name : entries()) {
     if (!name.ends_with("scene.json")) continue;
-    (name.starts_with("one/") ? one : parts).insert(name.substr(name.find('/')) + read(folder_ / name));
+    (name.starts_with("one/") ? one : parts).insert(name.substr(name.find('/')) + test::text_of(folder_ / name));
   }
   EXPECT_FALSE(one.empty());
   EXPECT_EQ(one, parts);
@@ -78,12 +79,12 @@ TEST_F(Campaign, WritesScenesFiles) {
 TEST_F(Campaign, GoesOnWhereItWas) {
   ASSERT_EQ(campaign("c", "--seeds 1..4 --generator hard --against exact").code, 0);
   const auto journal = folder_ / "c/journal/hard-1-4.journal";
-  const auto before = read(journal);
+  const auto before = test::text_of(journal);
   ASSERT_FALSE(before.empty());
   const Outcome again = campaign("c", "--seeds 1..4 --generator hard --against exact");
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_TRUE(again.says("hard scenes: 4\nhold: 4\n")) << again.text;
-  EXPECT_EQ(read(journal), before);
+  EXPECT_EQ(test::text_of(journal), before);
 }
 
 TEST_F(Campaign, OfTwoCandidatesInOneFolderIsRefused) {
@@ -173,11 +174,11 @@ TEST_F(Campaign, NamesAFileThatAnOrdinarySceneLacks) {
 TEST_F(Campaign, NamesTheFileOfABadRound) {
   ASSERT_EQ(campaign("c", "--seeds 1..2 --generator hard --against exact").code, 0);
   fs::create_directories(folder_ / "c/rounds");
-  write(folder_ / "c/rounds/1.txt", "hard/1\nnonsense\n");
+  test::write_text(folder_ / "c/rounds/1.txt", "hard/1\nnonsense\n");
   const Outcome bad = campaign("c", "--seeds 1..2 --generator hard --against exact --round 2");
   EXPECT_EQ(bad.code, 2) << bad.text;
   EXPECT_TRUE(bad.says("rounds/1.txt: line 2: expected GENERATOR/SEED such as hard/17, found nonsense")) << bad.text;
-  write(folder_ / "c/rounds/1.txt", "");
+  test::write_text(folder_ / "c/rounds/1.txt", "");
   const Outcome none = campaign("c", "--seeds 1..2 --generator hard --against exact --round 2");
   EXPECT_TRUE(none.says("rounds/1.txt: expected scenes, found none")) << none.text;
 }
@@ -188,8 +189,8 @@ pid_t worker_of(const std::string& mark) {
   std::map<pid_t, pid_t> parents;
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const pid_t pid = std::atoi(entry.path().filename().c_str());
-    if (pid <= 0 || read(entry.path() / "environ").find(mark) == std::string::npos) continue;
-    const std::string stat = read(entry.path() / "stat");
+    if (pid <= 0 || test::text_of(entry.path() / "environ").find(mark) == std::string::npos) continue;
+    const std::string stat = test::text_of(entry.path() / "stat");
     const std::size_t state = stat.rfind(')') + 2;
     if (state + 2 < stat.size()) parents[pid] = std::atoi(stat.c_str() + state + 2);
   }
@@ -258,7 +259,7 @@ TEST_F(Campaign, ProvesItsOutputsBeforeTheWork) {
   for (const char* name : {"results.json", "findings"}) {
     const std::string folder = std::string("of_") + name;
     fs::create_directories(folder_ / folder / (name == std::string("findings") ? "" : name));
-    if (name == std::string("findings")) write(folder_ / folder / name, "a file");
+    if (name == std::string("findings")) test::write_text(folder_ / folder / name, "a file");
     const Outcome run = campaign(folder, "--seeds 1..1 --generator hard --against exact");
     EXPECT_EQ(run.code, 2) << run.text;
     EXPECT_TRUE(run.says(std::string(name) + ": cannot be written")) << run.text;
@@ -280,8 +281,8 @@ TEST_F(Campaign, GoesInRounds) {
     EXPECT_TRUE(run.says("ordinary scenes: 16\nhard scenes: 16\nhold: 32\n")) << run.text;
   }
   EXPECT_EQ(results("one"), results("parts"));
-  EXPECT_EQ(read(folder_ / "one/rounds/1.txt"), read(folder_ / "parts/rounds/1.txt"));
-  EXPECT_TRUE(read(folder_ / "one/rounds/1.txt").starts_with("ordinary/1\n"));
+  EXPECT_EQ(test::text_of(folder_ / "one/rounds/1.txt"), test::text_of(folder_ / "parts/rounds/1.txt"));
+  EXPECT_TRUE(test::text_of(folder_ / "one/rounds/1.txt").starts_with("ordinary/1\n"));
   ASSERT_EQ(campaign("one", "--seeds 1..2 --round 3 --against exact").code, 0);
   EXPECT_EQ(campaign("one", "--seeds 1..2 --round 0").code, 2);
   ASSERT_EQ(campaign("hard", "--seeds 1..2 --generator hard --against exact").code, 0);

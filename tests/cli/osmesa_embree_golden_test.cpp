@@ -21,7 +21,7 @@ class GoldenCommand : public Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
-    const std::string project = read(PLUMBLINE_SOURCE_DIR "/golden/manifest.json");
+    const std::string project = test::text_of(PLUMBLINE_SOURCE_DIR "/golden/manifest.json");
     std::string manifest = project.substr(0, project.find("\"scenes\": {") + 11);
     for (const char* scene :
          {"cull/both_windings", "coverage/shared_edges", "depth/on_clear", "frame/one_pixel_float"}) {
@@ -32,17 +32,17 @@ class GoldenCommand : public Cli {
       const std::size_t line = project.find(fmt::format("\n\"{}\": ", scene));  // each has a line
       manifest += (manifest.ends_with('}') ? "," : "") + project.substr(line, project.find("},\n", line) + 1 - line);
     }
-    write(folder_ / "golden/manifest.json", manifest + "}}\n");
-    write(folder_ / "golden/tolerances.json", "{}");
+    test::write_text(folder_ / "golden/manifest.json", manifest + "}}\n");
+    test::write_text(folder_ / "golden/tolerances.json", "{}");
   }
   Outcome golden(const std::string& verb, const std::string& more = "") const {
     return plumb("golden " + verb + " --suite " + at("suite") + " --golden " + at("golden") + " " + more);
   }
   void change_scene(const std::string& from, const std::string& to) const {
-    std::string text = read(scene());
+    std::string text = test::text_of(scene());
     const std::size_t place = text.find(from);
     ASSERT_NE(place, std::string::npos);
-    write(scene(), text.replace(place, from.size(), to));
+    test::write_text(scene(), text.replace(place, from.size(), to));
   }
   fs::path scene() const { return folder_ / "suite/cull/both_windings.json"; }
   fs::path file(const std::string& kind, const std::string& of = "cull/both_windings") const {
@@ -54,7 +54,7 @@ class GoldenCommand : public Cli {
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> out;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / "golden")) {
-      if (entry.is_regular_file()) out[entry.path().string()] = read(entry.path());
+      if (entry.is_regular_file()) out[entry.path().string()] = test::text_of(entry.path());
     }
     return out;
   }
@@ -67,12 +67,12 @@ TEST_F(GoldenCommand, check_holds_and_ends_0) {
 }
 
 TEST_F(GoldenCommand, files_that_are_not_what_the_manifest_says_are_failures) {
-  const std::string picture = read(file("color"));
+  const std::string picture = test::text_of(file("color"));
   for (const auto& [what, bytes] :
        std::map<std::string, std::string>{{"truncated", picture.substr(0, picture.size() / 2)},
                                           {"a bit", std::string(picture).replace(60, 1, "~")},
                                           {"empty", ""}}) {
-    write(file("color"), bytes);
+    test::write_text(file("color"), bytes);
     const Outcome run = golden("check", scene().string());
     EXPECT_EQ(run.code, 1) << what << run.text;
     EXPECT_TRUE(run.says(file("color").string() + ": expected the ")) << what << run.text;
@@ -87,22 +87,22 @@ TEST_F(GoldenCommand, files_that_are_not_what_the_manifest_says_are_failures) {
 TEST_F(GoldenCommand, update_makes_a_broken_file_anew) {
   const auto before = files();
   const fs::path broken[] = {file("color"), file("depth", "coverage/shared_edges"), file("stages", "depth/on_clear")};
-  for (const fs::path& one : broken) write(one, "");
+  for (const fs::path& one : broken) test::write_text(one, "");
   const Outcome update = golden("update");
   EXPECT_EQ(update.code, 1) << update.text;
   for (const fs::path& one : broken) {
-    EXPECT_TRUE(read(one) == before.at(one.string())) << "the same bytes, on any day: " << one;
+    EXPECT_TRUE(test::text_of(one) == before.at(one.string())) << "the same bytes, on any day: " << one;
   }
   EXPECT_EQ(golden("check").code, 0);
 }
 
 TEST_F(GoldenCommand, an_extra_file_is_a_failure_what_a_kill_left_is_not) {
-  write(folder_ / "golden/cull/both_windings/.plumb-1-2", "half");
-  write(folder_ / "golden/cull/both_windings/color.0123456789abcdef.png", "half");
+  test::write_text(folder_ / "golden/cull/both_windings/.plumb-1-2", "half");
+  test::write_text(folder_ / "golden/cull/both_windings/color.0123456789abcdef.png", "half");
   const Outcome left = golden("check");
   EXPECT_EQ(left.code, 0) << left.text;
   EXPECT_TRUE(left.says("2 files are left of an update")) << left.text;
-  write(folder_ / "golden/cull/notes.txt", "mine");
+  test::write_text(folder_ / "golden/cull/notes.txt", "mine");
   const Outcome extra = golden("check");
   EXPECT_EQ(extra.code, 1);
   EXPECT_TRUE(extra.says("extra " + at("golden/cull/notes.txt"))) << extra.text;
@@ -114,12 +114,12 @@ TEST_F(GoldenCommand, an_extra_file_is_a_failure_what_a_kill_left_is_not) {
 
 TEST_F(GoldenCommand, a_manifest_that_a_hand_has_changed_ends_2) {
   const fs::path manifest = folder_ / "golden/manifest.json";
-  const std::string text = read(manifest);
+  const std::string text = test::text_of(manifest);
   const std::string line = "\"cull/both_windings\": ";
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string out = text;
     out.replace(out.find(from, out.find(line)), from.size(), to);
-    write(manifest, out);
+    test::write_text(manifest, out);
     return golden("check");
   };
   const Outcome vouched = with("\"vouched\":[\"", "\"vouched\":[\"ours\",\"");
@@ -131,7 +131,7 @@ TEST_F(GoldenCommand, a_manifest_that_a_hand_has_changed_ends_2) {
   EXPECT_EQ(with("\"bytes\":", "\"bytes\":1").code, 2);
   EXPECT_EQ(with("\"scene\":\"", "\"scene\":\"x").code, 2);
   EXPECT_EQ(with("\"files\":{", "\"files\":{\"more\":1,").code, 2);
-  write(manifest, text.substr(0, text.size() / 2));
+  test::write_text(manifest, text.substr(0, text.size() / 2));
   EXPECT_EQ(golden("check").code, 2);
   EXPECT_EQ(golden("update").code, 2) << "a set that is not understood is not replaced";
   fs::remove(manifest);
@@ -216,11 +216,11 @@ TEST_F(GoldenCommand, an_update_that_writes_nothing_makes_no_folder) {
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("REFUSED")) << run.text;
   EXPECT_FALSE(fs::exists(at("nowhere")));
-  write(folder_ / "golden/notes.txt", "mine");
+  test::write_text(folder_ / "golden/notes.txt", "mine");
   run = golden("update");
   EXPECT_EQ(run.code, 1) << "check fails, too";
   EXPECT_TRUE(run.says("notes.txt: a file that the manifest does not name")) << run.text;
-  EXPECT_EQ(read(folder_ / "golden/notes.txt"), "mine");
+  EXPECT_EQ(test::text_of(folder_ / "golden/notes.txt"), "mine");
 }
 
 TEST_F(GoldenCommand, one_update_at_a_time) {
@@ -293,7 +293,7 @@ TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
   bool changed = true;
   int olds = 0;
   for (int i = 0; i < kills; ++i) {
-    const std::string before = read(manifest);
+    const std::string before = test::text_of(manifest);
     change_scene(words[changed], words[!changed]);
     const pid_t child = ::fork();
     if (child == 0) {
@@ -306,7 +306,7 @@ TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
     int status = 0;
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(is_released_within_a_minute(at("golden")));
-    const bool old = read(manifest) == before;
+    const bool old = test::text_of(manifest) == before;
     olds += old;
     const Outcome check = plumb("golden check " + scene().string() + " --golden " + at("golden"));
     ASSERT_EQ(check.code, old ? 1 : 0) << check.text;
@@ -322,13 +322,13 @@ TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
 }
 
 TEST_F(GoldenCommand, a_suite_of_a_few_does_not_remove_the_goldens_of_all_others) {
-  const std::string manifest = read(PLUMBLINE_SOURCE_DIR "/golden/manifest.json");
+  const std::string manifest = test::text_of(PLUMBLINE_SOURCE_DIR "/golden/manifest.json");
   fs::create_directories(folder_ / "whole");
-  write(folder_ / "whole/manifest.json", manifest);
+  test::write_text(folder_ / "whole/manifest.json", manifest);
   const Outcome run = plumb("golden update --suite " + at("suite") + " --golden " + at("whole"));
   EXPECT_EQ(run.code, 2);
   EXPECT_TRUE(run.says("--suite " + at("suite") + ": expected the scenes of " + at("whole"))) << run.text;
-  EXPECT_EQ(read(folder_ / "whole/manifest.json"), manifest);
+  EXPECT_EQ(test::text_of(folder_ / "whole/manifest.json"), manifest);
 }
 
 }  // namespace

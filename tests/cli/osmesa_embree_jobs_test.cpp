@@ -34,12 +34,13 @@ class Jobs : public Cli {
     }
     const Outcome run = plumb(line);
     EXPECT_EQ(run.code, code) << run.text;
-    write(to / "printed", run.text);
+    test::write_text(to / "printed", run.text);
     Left out;
     static const std::regex seconds(R"re(( in |"seconds": ?|time=")[0-9][-+.e0-9]*)re");
     for (const auto& entry : fs::recursive_directory_iterator(to)) {
       if (entry.is_regular_file())
-        out[entry.path().lexically_relative(to).string()] = std::regex_replace(read(entry.path()), seconds, "$1T");
+        out[entry.path().lexically_relative(to).string()] =
+            std::regex_replace(test::text_of(entry.path()), seconds, "$1T");
     }
     return out;
   }
@@ -64,7 +65,7 @@ TEST_F(Jobs, leave_the_same_failures) {
 
 TEST_F(Jobs, end_with_the_first_thing_that_cannot_be_written) {
   fs::create_directories(folder_ / "failures/cull/closed_mesh");
-  write(at("failures/cull/closed_mesh/mine"), "");
+  test::write_text(at("failures/cull/closed_mesh/mine"), "");
   std::string first;
   for (const char* jobs : {"1", "3"}) {
     const Outcome run = plumb("check " + kFaulty + " --against exact --jobs " + jobs + " --failures " + at("failures") +

@@ -22,7 +22,7 @@ std::vector<pid_t> processes_of(const std::string& mark) {
   std::vector<pid_t> out;
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const pid_t pid = std::atoi(entry.path().filename().c_str());
-    if (pid > 0 && read(entry.path() / "environ").find("PLUMBLINE_KILLED_RUN=" + mark) != std::string::npos) {
+    if (pid > 0 && test::text_of(entry.path() / "environ").find("PLUMBLINE_KILLED_RUN=" + mark) != std::string::npos) {
       out.push_back(pid);
     }
   }
@@ -34,10 +34,11 @@ std::vector<pid_t> processes_of(const std::string& mark) {
 bool is_one_ending() {
   for (const auto& entry : fs::directory_iterator("/proc")) {
     if (std::atoi(entry.path().filename().c_str()) == 0) continue;
-    const std::string status = read(entry.path() / "status");
+    const std::string status = test::text_of(entry.path() / "status");
     const bool is_closed =
         status.find("\nState:\tZ") != std::string::npos && status.find("\nThreads:\t1\n") != std::string::npos;
-    if (status.starts_with("Name:\tplumb\n") && !is_closed && read(entry.path() / "environ").empty()) return true;
+    if (status.starts_with("Name:\tplumb\n") && !is_closed && test::text_of(entry.path() / "environ").empty())
+      return true;
   }
   return false;
 }
@@ -74,7 +75,7 @@ class KilledRuns : public Cli {
       if (name.find("/.plumb-") != std::string::npos || name.starts_with("tmp/")) out.insert(name);
       const bool is_golden = name.starts_with("golden/") && fs::is_regular_file(folder_ / name);
       if (is_golden && !name.ends_with(".json") &&
-          read(folder_ / "golden/manifest.json").find(name.substr(7)) == std::string::npos)
+          test::text_of(folder_ / "golden/manifest.json").find(name.substr(7)) == std::string::npos)
         out.insert(name);
     }
     return out;
@@ -122,8 +123,9 @@ class KilledRuns : public Cli {
 };
 
 TEST_F(KilledRuns, CheckWithAReport) {
-  kill_at_all_moments(fmt::format("check {} --report {} --json {}", at("scene.json"), at("out/report"), at("out/j")),
-                      [&] { return read(folder_ / "out/report/index.html").find("</html>") != std::string::npos; });
+  kill_at_all_moments(
+      fmt::format("check {} --report {} --json {}", at("scene.json"), at("out/report"), at("out/j")),
+      [&] { return test::text_of(folder_ / "out/report/index.html").find("</html>") != std::string::npos; });
 }
 
 // Verdicts that a killed run keeps do not alter what later runs say.
@@ -154,7 +156,7 @@ TEST_F(KilledRuns, DiagnoseOfAProgram) {
       "sh -c '\\''setsid sleep 60 & {} capture \"$0\" \"$1\"; sleep 0.3'\\'' {{scene}} {{output}}", PLUMBLINE_PLUMB);
   const fs::path json = folder_ / "out/j.json";
   kill_at_all_moments(fmt::format("diagnose {} --program '{}' --json {}", at("scene.json"), program, json.string()),
-                      [&] { return read(json).ends_with("}\n"); });
+                      [&] { return test::text_of(json).ends_with("}\n"); });
 }
 
 TEST_F(KilledRuns, GoldenUpdate) {
@@ -164,18 +166,18 @@ TEST_F(KilledRuns, GoldenUpdate) {
   fs::copy(kSharedEdges, scene);
   bool changed = false;
   kill_at_all_moments(fmt::format("golden update --suite {} --golden {}", at("suite"), at("golden")), [&] {
-    const std::string manifest = read(folder_ / "golden/manifest.json");
+    const std::string manifest = test::text_of(folder_ / "golden/manifest.json");
     for (const std::string kind : {"color", "depth", "stages"}) {  // the old set or the new one: whole
       const std::size_t from = manifest.find("coverage/scene/" + kind);
       if (from == manifest.npos) return false;
       if (!fs::exists(folder_ / "golden" / manifest.substr(from, manifest.find('"', from) - from))) return false;
     }
-    std::string text = read(scene);  // so that the next run has what to write
+    std::string text = test::text_of(scene);  // so that the next run has what to write
     changed = !changed;
     const std::string words[] = {"\"description\": \"", "\"description\": \"Changed. "};
     const std::string& old = words[!changed];
     text.replace(text.find(old), old.size(), words[changed]);
-    write(scene, text);
+    test::write_text(scene, text);
     return true;
   });
 }

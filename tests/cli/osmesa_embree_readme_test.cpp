@@ -95,16 +95,16 @@ TEST(Readme, IsReadInFiveMinutes) {
 }
 
 TEST(Readme, QuotesTheFaultsCode) {
-  const std::string readme = read(PLUMBLINE_SOURCE_DIR "/README.md"), file = "src/faults/raster.cpp";
+  const std::string readme = test::text_of(PLUMBLINE_SOURCE_DIR "/README.md"), file = "src/faults/raster.cpp";
   const std::size_t from = readme.find('`', readme.find("`" + file + "`") + file.size() + 2) + 1;
   const std::string quoted = readme.substr(from, readme.find('`', from) - from);
   EXPECT_GT(quoted.size(), 20u);
-  EXPECT_NE(read(PLUMBLINE_SOURCE_DIR "/" + file).find(quoted), std::string::npos) << quoted;
+  EXPECT_NE(test::text_of(PLUMBLINE_SOURCE_DIR "/" + file).find(quoted), std::string::npos) << quoted;
 }
 
 TEST(Readme, HoldsTheFirstSceneAndItsPicture) {
-  const std::string scene = read(kScenes + "texture/first_scene.json");
-  EXPECT_NE(read(PLUMBLINE_SOURCE_DIR "/README.md").find("```json\n" + scene + "```"), std::string::npos);
+  const std::string scene = test::text_of(kScenes + "texture/first_scene.json");
+  EXPECT_NE(test::text_of(PLUMBLINE_SOURCE_DIR "/README.md").find("```json\n" + scene + "```"), std::string::npos);
   const fs::path drawn = fs::temp_directory_path() / ("first_scene-" + std::to_string(::getpid()) + ".png");
   ASSERT_EQ(plumb("render " + kScenes + "texture/first_scene.json -o " + drawn.string()).code, 0);
   const Outcome same =
@@ -123,14 +123,14 @@ class KitReadme : public Cli {
       fs::copy(fs::path(PLUMBLINE_SOURCE_DIR) / name, folder_ / name, fs::copy_options::recursive);
     }
     const std::size_t fence = text_.find("```\n", text_.find("## The first ten minutes")) + 4;
-    write(folder_ / "commands", text_.substr(fence, text_.find("```", fence) - fence));
+    test::write_text(folder_ / "commands", text_.substr(fence, text_.find("```", fence) - fence));
   }
   Outcome run_commands() const {
     const std::string plumb_folder = fs::path(PLUMBLINE_PLUMB).parent_path().string();
     return shell("cd '" + folder_.string() + "' && PATH='" + plumb_folder + "':$PATH bash -e commands");
   }
 
-  const std::string text_ = read(PLUMBLINE_SOURCE_DIR "/src/kit/README.md");
+  const std::string text_ = test::text_of(PLUMBLINE_SOURCE_DIR "/src/kit/README.md");
 };
 
 TEST_F(KitReadme, ItsExampleIsJudgedRight) {
@@ -141,11 +141,11 @@ TEST_F(KitReadme, ItsExampleIsJudgedRight) {
 
 TEST_F(KitReadme, ItsPlantedBugIsFound) {
   const fs::path file = folder_ / "tests/renderers/c/rasterizer.c";
-  std::string code = read(file);
+  std::string code = test::text_of(file);
   const std::size_t line = code.find("if (e < 0"), planted = text_.find("`if (e") + 1;
   ASSERT_TRUE(line != std::string::npos && planted != 0);
   code.replace(line, code.find('\n', line) - line, text_.substr(planted, text_.find('`', planted) - planted));
-  write(file, code);
+  test::write_text(file, code);
   const Outcome wrong = run_commands();
   EXPECT_EQ(wrong.code, 1) << wrong.text;
   EXPECT_TRUE(wrong.says("in colour or depth: 72;") && wrong.says("likely stage: coverage")) << wrong.text;
@@ -158,7 +158,7 @@ TEST(Readme, NamesWhatIsThere) {
   std::vector<fs::path> texts = readmes();
   texts.push_back(root / "CONTRIBUTING.md");
   for (const fs::path& readme : texts) {
-    const std::string text = read(readme);
+    const std::string text = test::text_of(readme);
     const std::regex script("scripts/([a-z0-9_]+)"), link("\\]\\(([^)#:]+)\\)");
     for (std::sregex_iterator it(text.begin(), text.end(), script), end; it != end; ++it) scripts.insert((*it)[1]);
     for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {

@@ -36,7 +36,7 @@ TEST_F(Outputs, without_a_value_are_refused_before_anything_is_written) {
 TEST_F(Outputs, that_cannot_be_written_end_the_run_before_the_work) {
   fs::create_directories(folder_ / "folder.exr/");
   fs::create_directories(folder_ / "folder.png/");
-  write(folder_ / "file", "kept");
+  test::write_text(folder_ / "file", "kept");
   fs::create_symlink("b.exr", folder_ / "a.exr");
   fs::create_symlink("a.exr", folder_ / "b.exr");
   const Names before = entries();
@@ -67,7 +67,7 @@ TEST_F(Outputs, that_cannot_be_written_end_the_run_before_the_work) {
   refused(kCheck + " --report /proc/page", {"/proc/page", "cannot be written"});
   refused("capture " + kBothWindings + " " + at("file"), {at("file"), "Not a directory"});
   refused("capture " + kBothWindings + " /proc/capture", {"/proc/capture", "cannot be written"});
-  EXPECT_EQ(read(at("file")), "kept");
+  EXPECT_EQ(test::text_of(at("file")), "kept");
 }
 
 TEST_F(Outputs, are_not_empty_names) {
@@ -90,7 +90,7 @@ TEST_F(Outputs, never_overwrite_a_scene_that_is_read_by_any_name_of_it) {
   fs::create_symlink("scene.json", folder_ / "link.json");
   fs::create_hard_link(folder_ / "scene.json", folder_ / "hard.txt");
   fs::copy(kBothWindings, folder_ / "scene.png");
-  const std::string text = read(folder_ / "scene.json");
+  const std::string text = test::text_of(folder_ / "scene.json");
   const Names before = entries();
   for (const char* name : {"scene.json", "link.json", "hard.txt", "no/../scene.json"}) {
     const Outcome run = plumb("check " + at("scene.json") + " --against exact --ledger " + at(name));
@@ -99,15 +99,15 @@ TEST_F(Outputs, never_overwrite_a_scene_that_is_read_by_any_name_of_it) {
   }
   EXPECT_EQ(plumb("check " + folder_.string() + " --against exact --json " + at("scene.json")).code, 2) << "by folder";
   EXPECT_EQ(plumb("render " + at("scene.png") + " -o " + at("scene.png")).code, 2);
-  EXPECT_EQ(read(folder_ / "scene.json"), text);
-  EXPECT_EQ(read(folder_ / "scene.png"), text);
+  EXPECT_EQ(test::text_of(folder_ / "scene.json"), text);
+  EXPECT_EQ(test::text_of(folder_ / "scene.png"), text);
   EXPECT_EQ(entries(), before);
 }
 
 TEST_F(Outputs, never_overwrite_what_else_a_run_reads) {
   fs::copy(PLUMBLINE_SOURCE_DIR "/tests/scenes/blend/factors.json", folder_ / "factors.json");
   fs::copy(PLUMBLINE_SOURCE_DIR "/tests/scenes/blend/factors.part.json", folder_ / "factors.part.json");
-  std::ofstream(folder_ / "expect.json") << "{\"expectations\": []}";
+  test::write_text(folder_ / "expect.json", "{\"expectations\": []}");
   const Names before = entries();
   const std::string goldens = PLUMBLINE_SOURCE_DIR "/golden";
   for (const std::string& name : {at("factors.part.json"), at("expect.json"), goldens + "/manifest.json"}) {
@@ -136,7 +136,7 @@ TEST_F(Outputs, never_overwrite_each_other) {
 
 TEST_F(Outputs, through_a_link_replace_what_it_points_to) {
   fs::create_directories(folder_ / "far");
-  write(folder_ / "far/old.json", "old");
+  test::write_text(folder_ / "far/old.json", "old");
   fs::create_symlink("far/old.json", folder_ / "old.json");
   fs::create_symlink("far/new.png", folder_ / "new.png");  // to nothing yet
   fs::create_directories(folder_ / "far/captures");
@@ -145,7 +145,7 @@ TEST_F(Outputs, through_a_link_replace_what_it_points_to) {
   EXPECT_EQ(plumb("render " + kBothWindings + " -o " + at("new.png")).code, 0);
   EXPECT_EQ(plumb("capture " + kBothWindings + " " + at("captures")).code, 0);
   for (const char* link : {"old.json", "new.png", "captures"}) EXPECT_TRUE(fs::is_symlink(folder_ / link)) << link;
-  EXPECT_TRUE(nlohmann::json::accept(read(folder_ / "far/old.json")));
+  EXPECT_TRUE(nlohmann::json::accept(test::text_of(folder_ / "far/old.json")));
   EXPECT_GT(read_image(folder_ / "far/new.png").size(), 0u);
   EXPECT_EQ(read_capture(folder_ / "far/captures").renderer, "ours");
 }
@@ -159,12 +159,12 @@ TEST_F(Outputs, of_render_appear_both_or_not_at_all) {
   fs::remove(folder_ / "d.exr");
   EXPECT_TRUE(entries().empty());
   // A full disk, found out by the second file: the first, small enough, must not appear.
-  write(folder_ / "c.png", "old");
+  test::write_text(folder_ / "c.png", "old");
   const Outcome full = shell("trap '' XFSZ; ulimit -f 8; " PLUMBLINE_PLUMB " " + both + at("d.exr"));
   EXPECT_EQ(full.code, 2) << full.text;
   EXPECT_TRUE(full.says(at("d.exr") + ": cannot be written: File too large")) << full.text;
   EXPECT_EQ(entries(), Names{"c.png"});
-  EXPECT_EQ(read(at("c.png")), "old");
+  EXPECT_EQ(test::text_of(at("c.png")), "old");
   EXPECT_EQ(plumb(both + at("d.exr")).code, 0);
   EXPECT_EQ(entries(), (Names{"c.png", "d.exr"}));
 }
@@ -194,11 +194,11 @@ TEST_F(Outputs, capture_and_report_replace_an_empty_folder_and_their_own) {
     const Outcome again = plumb(command);
     EXPECT_EQ(again.code, 0) << again.text;
     EXPECT_EQ(entries(), made);
-    write(folder_ / "it/thesis.txt", "mine");
+    test::write_text(folder_ / "it/thesis.txt", "mine");
     const Outcome mine = plumb(command);
     EXPECT_EQ(mine.code, 2) << "a folder of ours with a file of the user's";
     EXPECT_TRUE(mine.says("thesis.txt") && mine.says("left alone")) << mine.text;
-    EXPECT_EQ(read(at("it/thesis.txt")), "mine");
+    EXPECT_EQ(test::text_of(at("it/thesis.txt")), "mine");
     fs::remove_all(folder_ / "it");
   }
 }
@@ -215,20 +215,20 @@ TEST_F(Outputs, capture_and_report_leave_other_folders_alone) {
   };
   EXPECT_EQ(plumb(capture).code, 0);
   refused(report, "a capture is no report");
-  const std::string manifest = read(at("it/manifest.json"));
+  const std::string manifest = test::text_of(at("it/manifest.json"));
   for (const char* text : {"{}", "", "{\"format\": \"web app\", \"name\": \"plumbline capture\"}", "[1, 2]"}) {
-    write(folder_ / "it/manifest.json", text);
+    test::write_text(folder_ / "it/manifest.json", text);
     refused(capture, "somebody else's manifest");
   }
   fs::remove_all(folder_ / "it");
   fs::create_directories(folder_ / "it/src");
-  write(folder_ / "it/manifest.json", manifest);
-  write(folder_ / "it/src/main.c", "mine");
+  test::write_text(folder_ / "it/manifest.json", manifest);
+  test::write_text(folder_ / "it/src/main.c", "mine");
   refused(capture, "a file in a folder beside a capture's manifest");
   fs::remove_all(folder_ / "it");
   EXPECT_EQ(plumb(report).code, 0);
   refused(capture, "a report is no capture");
-  write(folder_ / "it/plumb-report.txt", "index.html\n");
+  test::write_text(folder_ / "it/plumb-report.txt", "index.html\n");
   refused(report, "a list that does not say whose it is");
   fs::remove(folder_ / "it/plumb-report.txt");
   refused(report, "somebody's page");
@@ -249,7 +249,7 @@ TEST_F(Outputs, keep_scenes_of_one_name_apart_and_take_any_name) {
             "' --report '" + at("page") + "'");
   EXPECT_EQ(run.code, 0) << run.text;
   std::set<std::string> shown;
-  const std::string page = read(at("page/index.html"));
+  const std::string page = test::text_of(at("page/index.html"));
   EXPECT_FALSE(page.find("\xff") != page.npos || page.find("\"<>") != page.npos) << "not escaped";
   const std::string from = "id=\"report\">";
   const std::size_t begin = page.find(from) + from.size();
@@ -268,7 +268,7 @@ TEST_F(Outputs, keep_scenes_of_one_name_apart_and_take_any_name) {
       EXPECT_TRUE(shown.insert(link).second) << link << " is shown for two scenes";
     }
   }
-  const auto json = nlohmann::json::parse(read(at("out.json")));  // throws on what is no UTF-8
+  const auto json = nlohmann::json::parse(test::text_of(at("out.json")));  // throws on what is no UTF-8
   EXPECT_EQ(json["scenes"].size(), 6u);
 }
 

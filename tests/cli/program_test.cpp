@@ -146,19 +146,19 @@ TEST_F(Cli, program_may_begin_in_clip_or_window_space) {
 TEST_F(Cli, program_of_each_submission_has_a_row) {
   for (const auto& [name, line] : {std::pair("ada", PLUMBLINE_C_RENDERER " \"$@\""), std::pair("it's bob", "exit 3")}) {
     std::filesystem::create_directories(folder_ / "all" / name);
-    write(folder_ / "all" / name / "run", line);
+    test::write_text(folder_ / "all" / name / "run", line);
   }
-  write(folder_ / "all" / "notes.txt", "no submission");
-  write(folder_ / "rubric.json", R"({"title": "T", "scenes": {"coverage/shared_edges": {"points": 5}}})");
+  test::write_text(folder_ / "all" / "notes.txt", "no submission");
+  test::write_text(folder_ / "rubric.json", R"({"title": "T", "scenes": {"coverage/shared_edges": {"points": 5}}})");
   const std::string check = "check " + kSharedEdges + " --submissions " + at("all") +
                             " --program 'sh {submission}/run {input} {output}' --grade " + at("rubric.json");
   const Outcome run = plumb(check + " --grades " + at("grades") + " --markdown " + at("table.md"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(std::regex_search(run.text, std::regex("\nada +5 of 5 +1 +0 +0 +0 +0"))) << run.text;
   EXPECT_TRUE(std::regex_search(run.text, std::regex("\nit's bob +0 of 5 +0 +0 +0 +1 +0"))) << run.text;
-  EXPECT_NE(read(folder_ / "grades" / "ada.json").find("\"score\": 5.0"), std::string::npos);
-  EXPECT_NE(read(folder_ / "grades" / "it's bob.json").find("\"score\": 0.0"), std::string::npos);
-  EXPECT_NE(read(folder_ / "table.md").find("| ada | 5 of 5 | 1 | 0 | 0 | 0 | 0 |"), std::string::npos);
+  EXPECT_NE(test::text_of(folder_ / "grades" / "ada.json").find("\"score\": 5.0"), std::string::npos);
+  EXPECT_NE(test::text_of(folder_ / "grades" / "it's bob.json").find("\"score\": 0.0"), std::string::npos);
+  EXPECT_NE(test::text_of(folder_ / "table.md").find("| ada | 5 of 5 | 1 | 0 | 0 | 0 | 0 |"), std::string::npos);
   EXPECT_EQ(
       plumb("check " + kSharedEdges + " --submissions " + at("none") + " --program 'sh {submission} {input} {output}'")
           .code,
@@ -186,14 +186,14 @@ TEST_F(Cli, program_that_is_wrong_is_told_by_which_known_faults) {
 
 // A server that draws its first scene again and again, then one that ends after it: by itself, each scene is right.
 TEST_F(Cli, program_that_keeps_a_state_is_told_so) {
-  write(folder_ / "mine",
-        "#!/bin/sh\n"
-        "kept=$TMPDIR/kept\n"
-        "while IFS=\"$(printf '\\t')\" read -r in out; do\n" PLUMBLINE_C_RENDERER
-        " \"$in\" \"$out\" || exit\n"
-        "  if [ -d \"$kept\" ]; then cp \"$kept\"/* \"$out\"; else cp -r \"$out\" \"$kept\"; fi\n"
-        "  echo ok\n"
-        "done\n");
+  test::write_text(folder_ / "mine",
+                   "#!/bin/sh\n"
+                   "kept=$TMPDIR/kept\n"
+                   "while IFS=\"$(printf '\\t')\" read -r in out; do\n" PLUMBLINE_C_RENDERER
+                   " \"$in\" \"$out\" || exit\n"
+                   "  if [ -d \"$kept\" ]; then cp \"$kept\"/* \"$out\"; else cp -r \"$out\" \"$kept\"; fi\n"
+                   "  echo ok\n"
+                   "done\n");
   fs::permissions(folder_ / "mine", fs::perms::owner_all);
   const std::string two = kSharedEdges + " " + kScenes + "interpolation/w_ratio.json --against exact --jobs 1";
   const Outcome run = plumb("check " + two + " --program '" + at("mine") + " {serve}'");
@@ -203,9 +203,9 @@ TEST_F(Cli, program_that_keeps_a_state_is_told_so) {
       run.says("wrong, and drawn otherwise by the program when it is started for this scene alone: 1, first "
                "interpolation/w_ratio"))
       << run.text;
-  write(folder_ / "mine",
-        "#!/bin/sh\n"
-        "IFS=\"$(printf '\\t')\" read -r in out\n" PLUMBLINE_C_RENDERER " \"$in\" \"$out\" && echo ok\n");
+  test::write_text(folder_ / "mine",
+                   "#!/bin/sh\n"
+                   "IFS=\"$(printf '\\t')\" read -r in out\n" PLUMBLINE_C_RENDERER " \"$in\" \"$out\" && echo ok\n");
   const Outcome one = plumb("check " + two + " --program '" + at("mine") + " {serve}'");
   EXPECT_EQ(one.code, 1) << one.text;
   EXPECT_TRUE(
@@ -251,10 +251,11 @@ TEST_F(Cli, program_is_a_line_of_the_shell) {
 }
 
 TEST_F(Cli, program_that_leaves_too_much_fails_at_its_scene_alone) {
-  write(folder_ / "mine", "#!/bin/sh\n" PLUMBLINE_C_RENDERER
-                          " \"$1\" \"$2\"\n"
-                          "case $(cat \"$1/manifest.json\") in *both_windings*) for i in 1 2; do truncate -s 400M "
-                          "\"$2/$i\"; done;; esac\n");
+  test::write_text(folder_ / "mine",
+                   "#!/bin/sh\n" PLUMBLINE_C_RENDERER
+                   " \"$1\" \"$2\"\n"
+                   "case $(cat \"$1/manifest.json\") in *both_windings*) for i in 1 2; do truncate -s 400M "
+                   "\"$2/$i\"; done;; esac\n");
   fs::permissions(folder_ / "mine", fs::perms::owner_all);
   const Outcome run =
       plumb("check " + kScenes + "cull " + kSharedEdges + " --program '" + at("mine") + " {input} {output}'");
@@ -316,17 +317,17 @@ TEST_F(Cli, program_takes_placeholders_without_quotes_after_a_program) {
 }
 
 TEST_F(Cli, program_is_graded) {
-  write(at("rubric.json"), R"({"title": "Homework 1", "scenes": {
+  test::write_text(at("rubric.json"), R"({"title": "Homework 1", "scenes": {
     "coverage/shared_edges": {"stages": {"depth": 2, "merge": 3}},
     "fog/backwards": {"points": 4, "hint": "Fog goes by the distance from the eye."}}})");
   const std::string run = "check " + kSharedEdges + " " + kScenes + "fog/backwards.json --program " + kMine +
                           " --grade " + at("rubric.json") + " --grades " + at("results.json");
   EXPECT_EQ(plumb(run + " --markdown " + at("page.md")).code, 0);
-  const std::string results = read(at("results.json"));
+  const std::string results = test::text_of(at("results.json"));
   EXPECT_NE(results.find("\"score\": 5.0"), std::string::npos) << results;
   EXPECT_NE(results.find("Fog goes by the distance from the eye."), std::string::npos) << results;
-  EXPECT_NE(read(at("page.md")).find("## Homework 1: 5 of 9 points"), std::string::npos);
-  write(at("rubric.json"), R"({"title": "Homework 1", "scenes": {"fog/other": {"points": 4}}})");
+  EXPECT_NE(test::text_of(at("page.md")).find("## Homework 1: 5 of 9 points"), std::string::npos);
+  test::write_text(at("rubric.json"), R"({"title": "Homework 1", "scenes": {"fog/other": {"points": 4}}})");
   const Outcome refused = plumb(run);
   EXPECT_EQ(refused.code, 2);
   EXPECT_TRUE(refused.says("expected scenes that are run, found fog/other")) << refused.text;
@@ -336,13 +337,13 @@ TEST_F(Cli, program_is_graded) {
 // The kit guesses at no other format (CHANGELOG.md).
 TEST_F(Cli, export_of_another_version_is_refused_by_the_kit) {
   ASSERT_EQ(plumb("export " + kSharedEdges + " " + at("export")).code, 0);
-  const std::string manifest = read(at("export/manifest.json")), version = "\"version\": 1";
+  const std::string manifest = test::text_of(at("export/manifest.json")), version = "\"version\": 1";
   const std::size_t place = manifest.find(version);
   ASSERT_NE(place, std::string::npos) << manifest;
   const std::string run = PLUMBLINE_C_RENDERER " " + at("export") + " " + at("out");
   for (const char* other : {"\"version\": 2", "\"version\": \"1\"", "\"v\": 1"}) {
     std::string changed = manifest;
-    write(at("export/manifest.json"), changed.replace(place, version.size(), other));
+    test::write_text(at("export/manifest.json"), changed.replace(place, version.size(), other));
     const Outcome refused = shell(run);
     EXPECT_EQ(refused.code, 1) << other;
     EXPECT_TRUE(refused.says("export: expected a plumbline export of version 1")) << refused.text;
@@ -354,7 +355,7 @@ TEST_F(Cli, export_writes_the_scene) {
   EXPECT_TRUE(fs::exists(folder_ / "export" / "meshes.0.positions.bin"));
   const Outcome again = plumb("export " + kScenes + "clip/crowd.json " + at("export"));
   EXPECT_EQ(again.code, 0) << again.text;
-  write(folder_ / "export" / "mine.txt", "mine");
+  test::write_text(folder_ / "export" / "mine.txt", "mine");
   const Outcome refused = plumb("export " + kSharedEdges + " " + at("export"));
   EXPECT_EQ(refused.code, 2) << refused.text;
   EXPECT_TRUE(refused.says("mine.txt")) << refused.text;

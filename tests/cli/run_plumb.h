@@ -8,13 +8,13 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include "base/temporary_path.h"
 #include "cli/options/renderers.h"
+#include "tests/suite.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 
@@ -43,19 +43,10 @@ inline Outcome shell(const std::string& line) {
 /// AddressSanitizer all do. Throws std::runtime_error where there is no pipe.
 Outcome plumb(const std::string& arguments);
 
-inline std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-inline void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
-
 /// The OpenGL reference that is asked where none is named: osmesa, in a build without it egl.
 inline const std::string kOpenGl = cli::reference_names().front();
 
-inline const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
+inline const std::string kScenes = suite_folder() / "";  // ends in "/"
 inline const std::string kSharedEdges = kScenes + "coverage/shared_edges.json";
 
 // A folder of its own for each test, gone afterwards.
@@ -70,7 +61,7 @@ class Cli : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
   std::string at(const std::string& name) const { return (folder_ / name).string(); }
   std::string scene_file(const std::string& json) const {
-    write(folder_ / "scene.json", json);
+    test::write_text(folder_ / "scene.json", json);
     return at("scene.json");
   }
   // The names of all that is in the folder, hidden ones and those in folders included.

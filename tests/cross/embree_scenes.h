@@ -100,7 +100,7 @@ inline Scene sphere_scene(int width, int height, int rings, int segments, Cull c
 inline constexpr int kSceneKinds = 8;
 
 /// Small scene, 24 to 113 pixels wide and high, a function of kind [0, kSceneKinds) and seed.
-inline Scene random_scene(int kind, unsigned seed) {
+inline Scene small_scene(int kind, unsigned seed) {
   Random random(seed * 977u + static_cast<unsigned>(kind));
   Scene scene = frame_of(24 + random.below(90), 24 + random.below(90));
   scene.frame.depth = std::array{DepthFormat::z8, DepthFormat::z16, DepthFormat::z24,

@@ -100,7 +100,7 @@ inline std::vector<SceneKind> kinds() {
 }
 
 /// A scene of `count` triangles of a kind; formats and state vary with the seed.
-inline Scene random_scene(const SceneKind& kind, int count, std::uint64_t seed) {
+inline Scene scene_of_triangles(const SceneKind& kind, int count, std::uint64_t seed) {
   Random r(seed * 1000003 + 17);
   Scene scene;
   scene.name = "random/" + kind.name + " " + std::to_string(seed);

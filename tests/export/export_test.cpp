@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +14,9 @@
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 #include "tests/export/drawn_from_export.h"
+#include "tests/suite.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -71,7 +72,7 @@ TEST_P(ExportOf, EverySceneOfTheGroupDrawsTheSameBits) {
 
 std::vector<fs::path> groups() {
   std::vector<fs::path> out;
-  for (const auto& entry : fs::directory_iterator(PLUMBLINE_SOURCE_DIR "/tests/scenes")) {
+  for (const auto& entry : fs::directory_iterator(suite_folder())) {
     if (entry.is_directory()) out.push_back(entry.path());
   }
   std::ranges::sort(out);
@@ -82,12 +83,12 @@ INSTANTIATE_TEST_SUITE_P(Groups, ExportOf, ::testing::ValuesIn(groups()),
 
 TEST_F(ExportFolder, IsReplacedWhereItHoldsAnExportAndLeftAloneElse) {
   const fs::path to = root_ / "export";
-  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/antialias/taps_gl.json");
+  const Scene scene = suite_scene("antialias/taps_gl");
   write_export(scene, stages_of, to);
   EXPECT_TRUE(fs::exists(to / "pass5" / "manifest.json"));
-  write_export(load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/clip/crowd.json"), stages_of, to);
+  write_export(suite_scene("clip/crowd"), stages_of, to);
   EXPECT_FALSE(fs::exists(to / "pass5"));
-  std::ofstream(to / "mine.txt") << "mine";
+  test::write_text(to / "mine.txt", "mine");
   EXPECT_THROW(write_export(scene, stages_of, to), OutputError);
   EXPECT_TRUE(fs::exists(to / "mine.txt"));
 }

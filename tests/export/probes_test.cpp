@@ -6,14 +6,10 @@
 #include <limits>
 
 #include "renderers/pipeline_renderer.h"
-#include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
-
-Scene scene_named(const std::string& name) {
-  return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name + ".json");
-}
 
 Capture capture_of_nothing(const Scene& scene) {
   Capture out;
@@ -33,7 +29,7 @@ Planes probed(const Scene& scene) {
 class ProbesOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(ProbesOf, AreThePlanesOfOurOwnRecords) {
-  const Scene scene = scene_named(GetParam());
+  const Scene scene = suite_scene(GetParam());
   const Planes shown = pipeline::make_pipeline()->capture(scene, Request{}).planes, found = probed(scene);
   EXPECT_EQ(found.count.values(), shown.count.values());
   EXPECT_EQ(found.id_sum.values(), shown.id_sum.values());
@@ -46,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ProbesOf,
 
 TEST(Probes, TellNoWinnersWhereColoursOrStencilValuesDecide) {
   for (const char* name : {"alpha_test/cutout", "stencil/portal"}) {
-    const Planes found = probed(scene_named(name));
+    const Planes found = probed(suite_scene(name));
     EXPECT_FALSE(found.count.empty()) << name;
     EXPECT_TRUE(found.id.empty()) << name;
   }
@@ -62,7 +58,7 @@ struct OfLessEqual : Renderer {
 };
 
 TEST(Probes, AreOfAnyFunctionThatEveryDepthPasses) {
-  Scene scene = scene_named("depth/near_and_far");
+  Scene scene = suite_scene("depth/near_and_far");
   scene.frame.clear_depth = 0.25;
   for (Draw& draw : scene.draws) draw.depth_func = DepthFunc::less_equal;
   OfLessEqual renderer;
@@ -85,7 +81,7 @@ struct OfLess : Renderer {
 };
 
 TEST(Probes, AreOfLessWhereTheFarPlaneCutsAndCodesAreMany) {
-  Scene scene = scene_named("coverage/shared_edges");
+  Scene scene = suite_scene("coverage/shared_edges");
   OfLess renderer;
   Capture capture = capture_of_nothing(scene);
   add_probed_planes(scene, renderer, capture);
@@ -107,7 +103,7 @@ struct WholeAlone : Renderer {
 };
 
 TEST(Probes, ShowNoCoverageWhereOneOfThePicturesIsLacking) {
-  const Scene scene = scene_named("clip/crowd");
+  const Scene scene = suite_scene("clip/crowd");
   WholeAlone renderer;
   Capture capture = capture_of_nothing(scene);
   EXPECT_THROW(add_probed_planes(scene, renderer, capture), Unsupported);
@@ -126,7 +122,7 @@ class OfAnotherBackground : public Renderer {
 };
 
 TEST(Probes, ShowNoWinnersWhereAColourIsNoPrimitives) {
-  const Scene scene = scene_named("coverage/shared_edges");
+  const Scene scene = suite_scene("coverage/shared_edges");
   OfAnotherBackground renderer;
   Capture capture = capture_of_nothing(scene);
   EXPECT_THROW(add_probed_planes(scene, renderer, capture), Unsupported);

@@ -13,6 +13,7 @@
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/cross/embree_scenes.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -84,8 +85,7 @@ void expect_agreed(const Agreement& a) {
 
 // Some of the suite's, but for those that it refuses.
 std::vector<Scene> some_scenes() {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-  const std::vector<std::filesystem::path> files = find_scenes(folder);
+  const std::vector<std::filesystem::path> files = suite_files();
   std::vector<Scene> out;
   for (std::size_t i = 0; i < files.size(); i += one_of(12)) out.push_back(load_scene(files[i], {}));
   std::erase_if(out, [](const Scene& s) {
@@ -113,7 +113,7 @@ class RandomScenes : public ::testing::TestWithParam<int> {};
 TEST_P(RandomScenes, EqualObjectOrderOutsideAmbiguousPixels) {
   Agreement all;
   for (std::size_t seed = 1; seed <= 25; seed += one_of(8))
-    add(test::random_scene(GetParam(), static_cast<unsigned>(seed)), all);
+    add(test::small_scene(GetParam(), static_cast<unsigned>(seed)), all);
   std::printf("kind %d: %ld pixels, %ld covered, %ld ambiguous; apart on %ld of these\n", GetParam(), all.pixels,
               all.covered, all.ambiguous, all.apart);
   expect_agreed(all);
@@ -261,7 +261,7 @@ Scene in_games101(Scene scene) {
 TEST(ImageOrder, WhatIsLeftOutBehindOthersIsNotMissed) {
   for (int kind = 0; kind < 2 * test::kSceneKinds; ++kind) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
-      Scene scene = test::random_scene(kind / 2, seed);
+      Scene scene = test::small_scene(kind / 2, seed);
       if (kind % 2 != 0) scene = in_games101(scene);
       for (Draw& draw : scene.draws) draw.depth_func = seed % 2 == 0 ? DepthFunc::less : DepthFunc::less_equal;
       Scene with_never = scene;

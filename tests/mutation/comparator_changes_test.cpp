@@ -1,13 +1,13 @@
 // The table of scripts/mutate_comparators: each text that it replaces stands once in its file.
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "mutation/fields.h"
+#include "tests/text_file.h"
 
 namespace plumbline::mutation {
 namespace {
@@ -34,9 +34,7 @@ TEST(ComparatorChanges, EachTextStandsOnceInItsFile) {
     ++rows;
     const std::vector<std::string> fields = fields_of(line, '\t');
     ASSERT_TRUE(fields.size() == 4 || fields.size() == 5) << "tests/check/mutations.tsv:" << number;
-    std::ifstream source(kProject / fields[0]);
-    const std::string text(std::istreambuf_iterator<char>(source), {});
-    EXPECT_EQ(occurrences(with_line_ends(fields[1]), text), 1u)
+    EXPECT_EQ(occurrences(with_line_ends(fields[1]), test::text_of(kProject / fields[0])), 1u)
         << "tests/check/mutations.tsv:" << number << ": " << fields[0] << ": " << fields[1];
     EXPECT_NE(fields[1], fields[2]) << "tests/check/mutations.tsv:" << number;
   }

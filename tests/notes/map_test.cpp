@@ -1,13 +1,12 @@
 // The map of the course notes leads where it says: every file is there, and every name in it.
 #include "notes/notes.h"
+#include "tests/text_file.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,13 +19,6 @@ using notes::Place;
 using notes::Teaching;
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 std::string without_comments(const std::string& source) {
   return std::regex_replace(source, std::regex("//[^\n]*"), "");
@@ -67,7 +59,7 @@ std::string wrong(const Place& place) {
     const bool scene = place.file.ends_with(".json") && !place.file.ends_with(".part.json") && place.name.empty();
     return scene ? "" : place.file + ": it is no scene";
   }
-  const std::string source = read(file);
+  const std::string source = test::text_of(file);
   const bool found = is_in("src/faults/") ? source.find("\"" + place.name + "\"") != std::string::npos
                      : is_in("src/")      ? has_name(source, place.name)
                                           : has_test(source, place.name);
@@ -110,7 +102,7 @@ TEST(NotesMap, EveryRowLeadsToWhatItNames) {
 
 /// All that `expression` matches in a source: its groups, joined by dots.
 std::vector<std::string> found(const fs::path& file, const char* expression) {
-  const std::string source = without_comments(read(file));
+  const std::string source = without_comments(test::text_of(file));
   std::vector<std::string> out;
   const std::regex regex(expression);
   for (std::sregex_iterator at(source.begin(), source.end(), regex), end; at != end; ++at) {

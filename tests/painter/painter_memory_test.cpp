@@ -16,6 +16,7 @@
 #include "scene/file/scene_file.h"
 #include "tests/extent.h"
 #include "tests/painter/painter_frames.h"
+#include "tests/suite.h"
 
 namespace {
 std::atomic<std::size_t> asked_for_memory{0};
@@ -63,8 +64,7 @@ std::size_t asks_again(Painter& painter, const Scene& scene, int threads) {
 
 // Antialiased, clipped, lit from two sides, textured: all.
 TEST(PainterMemory, IsNotAskedForAfterAnyScenesFirstFrame) {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-  const std::vector<std::filesystem::path> files = find_scenes(folder);
+  const std::vector<std::filesystem::path> files = suite_files();
   for (const int threads : {1, 2}) {
     Painter painter(threads);
     for (std::size_t i = static_cast<std::size_t>(threads) % one_of(6); i < files.size(); i += one_of(6)) {

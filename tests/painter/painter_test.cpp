@@ -21,6 +21,7 @@
 #include "scene/texture/texture_images.h"
 #include "tests/extent.h"
 #include "tests/painter/painter_frames.h"
+#include "tests/suite.h"
 
 namespace plumbline::pipeline {
 namespace {
@@ -39,8 +40,7 @@ std::map<std::string, std::unique_ptr<Painter>> painters() {
 
 // Every scene (in a run one of 6) and pass; painters keep their memory between scenes of any size.
 TEST(Painter, DrawsEverySceneAsItsDefinitionDoes) {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-  const std::vector<std::filesystem::path> files = find_scenes(folder);
+  const std::vector<std::filesystem::path> files = suite_files();
   const Stages stages = production_stages();
   const auto all = painters();
   std::size_t compared = 0;
@@ -311,7 +311,7 @@ TEST(Painter, WritesFramesOfEveryWidth) {
 }
 
 TEST(Painter, TellsOneStepOfDepth) {
-  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/coverage/shared_edges.json", {});
+  const Scene scene = suite_scene("coverage/shared_edges");
   Frame other = render(scene, production_stages());
   EXPECT_TRUE(same_bits(render(scene), other));
   other.depth_code(3, 3) ^= 1;

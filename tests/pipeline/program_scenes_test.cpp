@@ -8,6 +8,7 @@
 #include "pipeline/render.h"
 #include "scene/file/scene_file.h"
 #include "tests/pipeline/programs.h"
+#include "tests/suite.h"
 
 namespace plumbline::pipeline {
 namespace {
@@ -59,7 +60,7 @@ std::optional<ProgramState> common_state(const Scene& scene) {
 }
 
 TEST(ProgramScenes, DrawsTheFixedFunctionsScenesBitForBit) {
-  const std::filesystem::path root = PLUMBLINE_SOURCE_DIR "/tests/scenes";
+  const std::filesystem::path root = suite_folder();
   const std::filesystem::path folders[] = {root / "interpolation", root / "clip",  root / "light",
                                            root / "frame",         root / "depth", root / "coverage"};
   int compared = 0, flat = 0, culled = 0;
@@ -106,7 +107,7 @@ struct GouraudShader {
 // No tolerance: a white material under one white light comes to max(0, N.L) * 1 + 0, which rounds nowhere.
 TEST(ProgramScenes, TheNotesGouraudShaderIsTheFixedFunctionsDiffuseLight) {
   for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba32f}) {
-    Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/light/sphere_gouraud.json", {});
+    Scene scene = suite_scene("light/sphere_gouraud");
     scene.frame.color = color;
     scene.light_model.ambient = glm::vec3(0);
     scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}};  // eye space has the world's axes

@@ -9,6 +9,7 @@
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 #include "tests/extent.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -20,10 +21,9 @@ bool same_bits(const Plane<T>& a, const Plane<T>& b) {
 }
 
 TEST(EveryScene, HasTheSamePlanesWatchedOrNot) {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   const auto pipeline = pipeline::make_pipeline();
   int watched = 0, with_stencil = 0, too_large = 0;
-  const auto files = find_scenes(folder);
+  const auto files = suite_files();
   for (std::size_t i = 0; i < files.size(); i += one_of(8)) {
     const auto& file = files[i];
     const Scene scene = load_scene(file, {});

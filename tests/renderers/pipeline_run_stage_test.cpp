@@ -8,9 +8,9 @@
 
 #include "capture/capture_columns.h"
 #include "renderers/pipeline_renderer.h"
-#include "scene/file/scene_file.h"
 #include "tests/capture/differing_arrays.h"
 #include "tests/pipeline/boxes.h"
+#include "tests/suite.h"
 
 namespace plumbline::pipeline {
 namespace {
@@ -21,8 +21,6 @@ using testing::IsEmpty;
 using testing_words::boxes;
 using testing_words::everything;
 using testing_words::kFormats;
-
-const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
 
 /// Arrays of some stages in a capture, but for planes.texel and planes.shaded, which no stage run alone fills.
 struct Chosen {
@@ -63,11 +61,10 @@ void expect_each_stage_alone(const Scene& scene) {
 
 TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
   for (const auto& [color, depth] : kFormats) expect_each_stage_alone(boxes(color, depth));
-  for (const char* file :
-       {"phong/all_at_once.json", "phong/separate_on_texels.json", "light/two_sided_cut.json",
-        "stencil/everything.json", "lines/wide_perspective.json", "points/sizes.json", "fog/linear.json"}) {
+  for (const char* file : {"phong/all_at_once", "phong/separate_on_texels", "light/two_sided_cut", "stencil/everything",
+                           "lines/wide_perspective", "points/sizes", "fog/linear"}) {
     SCOPED_TRACE(file);
-    expect_each_stage_alone(load_scene(kScenes + file, {}));
+    expect_each_stage_alone(suite_scene(file));
   }
 }
 

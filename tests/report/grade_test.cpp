@@ -5,6 +5,7 @@
 
 #include "scene/json/json_tree.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::report {
 namespace {
@@ -66,7 +67,7 @@ using GradeFile = TestFolder;
 
 TEST_F(GradeFile, IsReadAndRefused) {
   const auto read_text = [&](const std::string& text) {
-    std::ofstream(root_ / "rubric.json") << text;
+    test::write_text(root_ / "rubric.json", text);
     return read_rubric(root_ / "rubric.json");
   };
   const Rubric rubric = read_text(

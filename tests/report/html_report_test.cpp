@@ -2,11 +2,9 @@
 #include <bit>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <random>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +15,7 @@
 #include "tests/check/verdict/verdicts.h"
 #include "tests/report/page_numbers.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::report {
 namespace {
@@ -39,15 +38,9 @@ Scene described(const std::string& description) {
   return scene;
 }
 
-std::string read_file(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 // What a page's script is given, of the overview and of a scene; both are JSON in a script's text.
 nlohmann::json overview(const fs::path& page) {
-  const std::string text = read_file(page / "index.html"), from = "id=\"report\">";
+  const std::string text = test::text_of(page / "index.html"), from = "id=\"report\">";
   const std::size_t begin = text.find(from) + from.size();
   return nlohmann::json::parse(text.substr(begin, text.find("</script>", begin) - begin));
 }
@@ -55,7 +48,7 @@ struct Shown {
   nlohmann::json about, view;
 };
 Shown shown(const fs::path& file) {
-  const std::string text = read_file(file), head = "sceneArrived({...", middle = ", view: ", tail = "});\n";
+  const std::string text = test::text_of(file), head = "sceneArrived({...", middle = ", view: ", tail = "});\n";
   EXPECT_TRUE(text.starts_with(head) && text.ends_with(tail)) << text;
   const std::size_t view = text.find("}" + middle) + 1;
   return {nlohmann::json::parse(text.substr(head.size(), view - head.size())),
@@ -79,7 +72,7 @@ TEST_F(Pages, PagesAreNoScriptOfAHostileText) {
   HtmlReport page(folder / "page", 1);
   page.add(verdict, {}, {}, described(odd), odd, odd);
   page.write(odd);
-  const std::string text = read(folder / "page/index.html");
+  const std::string text = test::text_of(folder / "page/index.html");
   EXPECT_FALSE(contains(text, "<script>\"a"));
   EXPECT_FALSE(contains(text, "<!--"));
   EXPECT_FALSE(contains(text, "<a &"));
@@ -89,7 +82,7 @@ TEST_F(Pages, PagesAreNoScriptOfAHostileText) {
   EXPECT_EQ(card["description"], odd);
   EXPECT_EQ(card["file"], "group/~3ca~20~26~20~22b~22~3e.js");
   EXPECT_EQ(card["outcome"], "failed");
-  const std::string script = read(folder / "page/group/~3ca~20~26~20~22b~22~3e.js");
+  const std::string script = test::text_of(folder / "page/group/~3ca~20~26~20~22b~22~3e.js");
   EXPECT_FALSE(contains(script, "<")) << "though no page holds it";
   const Shown scene = shown(folder / "page/group/~3ca~20~26~20~22b~22~3e.js");
   for (const char* key : {"description", "failure", "repeat"}) EXPECT_EQ(scene.about[key], odd) << key;
@@ -278,7 +271,7 @@ TEST_F(Pages, PagesReplaceWhatIsNoUtf8AndNothingElse) {
   page.add(verdict_of({}), {}, {}, described(odd + "|" + fine));
   page.write(odd + "|" + fine);
   const std::string r = "\xef\xbf\xbd";
-  const std::string text = read(folder / "index.html");
+  const std::string text = test::text_of(folder / "index.html");
   EXPECT_TRUE(contains(text, r + r + " " + r + r + r + " " + r + r + r + r + " " + r + " " + r + r + "|" + fine))
       << text;
   const std::string description = overview(folder)["scenes"][0]["description"];
@@ -319,7 +312,7 @@ TEST_F(Pages, APageAppearsWholeOrNotAtAll) {
   HtmlReport late(folder / "a/b", 1);
   write_file(folder / "a/b/notes.txt", "made while it ran");
   EXPECT_THROW(late.write(""), OutputError);
-  EXPECT_EQ(read(folder / "a/b/notes.txt"), "made while it ran");
+  EXPECT_EQ(test::text_of(folder / "a/b/notes.txt"), "made while it ran");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "tests/check/fixtures.h"
 #include "tests/check/verdict/verdicts.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::report {
 namespace {
@@ -29,7 +30,7 @@ struct Reports : TestFolder {
   }
   nlohmann::json json(const std::vector<SceneVerdict>& verdicts) const {
     write_json(folder / "out.json", verdicts, {{{"ours", "0.1"}, {"osmesa", "Mesa \"22\""}}, "", {}, false, {}, {}});
-    return nlohmann::json::parse(read(folder / "out.json"));
+    return nlohmann::json::parse(test::text_of(folder / "out.json"));
   }
   const fs::path& folder = root_;
 };
@@ -242,7 +243,7 @@ TEST_F(Reports, LedgerFileHasEveryRow) {
   Comparison c = compared(Outcome::within, 1.234, 8);
   c.measurement.max_ratio = 0.15425;
   write_ledger(folder / "ledger.json", std::vector{verdict_of({c})});
-  const auto out = nlohmann::json::parse(read(folder / "ledger.json"));
+  const auto out = nlohmann::json::parse(test::text_of(folder / "ledger.json"));
   ASSERT_EQ(out["tolerances"].size(), check::ledger().size());
   for (std::size_t i = 0; i < check::ledger().size(); ++i) {
     const auto& row = out["tolerances"][i];
@@ -263,7 +264,7 @@ TEST_F(Reports, LedgerFileHasEachGroupsLargestDifferences) {
   write_ledger(folder / "ledger.json",
                std::vector{verdict_of({compared(Outcome::within, 1, 8), compared(Outcome::within, 2, 8)}),
                            verdict_of({not_compared(Outcome::unsupported, "")}), other});
-  const auto groups = nlohmann::json::parse(read(folder / "ledger.json"))["groups"];
+  const auto groups = nlohmann::json::parse(test::text_of(folder / "ledger.json"))["groups"];
   ASSERT_EQ(groups.size(), 2u);
   EXPECT_EQ(groups[0]["name"], "another");
   EXPECT_EQ(groups[0]["scenes"], 1);
@@ -286,7 +287,7 @@ TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {
     EXPECT_THROW(write_ledger(target, {}), OutputError);
   }
   EXPECT_EQ(entries(folder), 1u) << "nothing is left behind";
-  EXPECT_EQ(read(folder / "file"), "kept");
+  EXPECT_EQ(test::text_of(folder / "file"), "kept");
 }
 
 }  // namespace

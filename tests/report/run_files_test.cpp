@@ -1,5 +1,4 @@
 // Runs by the JSON that they left: read back, merged, compared; and what CI systems read.
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 
@@ -9,6 +8,7 @@
 #include "report/text/markdown.h"
 #include "scene/json/json_tree.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::report {
 namespace {
@@ -52,10 +52,10 @@ struct RunFiles : TestFolder {
   }
   void refused(const std::string& from, const std::string& to, const std::string& says) const {
     write_json(at("run.json"), std::vector{failing("light/a")}, {{{"osmesa", "1"}}, "", {"osmesa"}, false, {}, {}});
-    std::string text = read(at("run.json"));
+    std::string text = test::text_of(at("run.json"));
     ASSERT_NE(text.find(from), std::string::npos) << from;
     text.replace(text.find(from), from.size(), to);
-    std::ofstream(at("run.json")) << text;
+    test::write_text(at("run.json"), text);
     try {
       read_run(at("run.json"));
       ADD_FAILURE() << "taken: " << to;
@@ -80,9 +80,9 @@ TEST_F(RunFiles, AreReadBackWhole) {
   EXPECT_EQ(back.head.versions.at("osmesa"), "1");
   EXPECT_EQ(back.tolerances.size(), check::ledger().size());
   write_json(at("again.json"), back.verdicts, back.head);
-  EXPECT_EQ(read(at("again.json")), read(at("run.json")));
-  EXPECT_NE(read(at("again.json")).find("\"cause\": \"window (fault window.y_flipped)\""), std::string::npos);
-  EXPECT_NE(read(at("again.json")).find("pixel 3,4 record 5 depth"), std::string::npos);
+  EXPECT_EQ(test::text_of(at("again.json")), test::text_of(at("run.json")));
+  EXPECT_NE(test::text_of(at("again.json")).find("\"cause\": \"window (fault window.y_flipped)\""), std::string::npos);
+  EXPECT_NE(test::text_of(at("again.json")).find("pixel 3,4 record 5 depth"), std::string::npos);
   EXPECT_FALSE(all_hold(back.verdicts));
   EXPECT_EQ(seconds(back.verdicts), 1.0);
 }
@@ -104,7 +104,7 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
   std::vector<SceneVerdict> both = a;
   both.push_back(b[0]);
   run(both);
-  const std::string whole = read(at("run.json"));
+  const std::string whole = test::text_of(at("run.json"));
   const auto merged = [&](std::vector<CheckRun> runs) {
     const Merged m = merge(std::move(runs));
     write_json(at("merged.json"), m.run.verdicts, m.run.head);
@@ -116,7 +116,7 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
     return out;
   };
   EXPECT_TRUE(merged(runs(run(b, {2, 2, 2}), run(a, {1, 2, 2}), run(a, {1, 2, 2}))).empty());
-  EXPECT_EQ(read(at("merged.json")), whole) << "in the order of the scenes, each once";
+  EXPECT_EQ(test::text_of(at("merged.json")), whole) << "in the order of the scenes, each once";
   EXPECT_TRUE(merged(runs(run(a), run(b))).empty()) << "runs that state no share";
   EXPECT_EQ(merged(runs(run(b, {2, 3, 4}))),
             (std::vector<std::string>{"missing: shard 1, 3 of 3", "missing: 3 of 4 scenes"}));

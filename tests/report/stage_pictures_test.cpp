@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -17,15 +15,14 @@
 #include "report/page/diagnosis_page.h"
 #include "report/text/diagnosis_text.h"
 #include "scene/antialias.h"
-#include "scene/file/scene_file.h"
 #include "tests/report/page_numbers.h"
+#include "tests/suite.h"
+#include "tests/text_file.h"
 
 namespace plumbline::report {
 namespace {
 
-Scene textured_scene() {
-  return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/texture/floor_linear_mipmap_linear.json", {});
-}
+Scene textured_scene() { return suite_scene("texture/floor_linear_mipmap_linear"); }
 
 Capture drawn(const Scene& scene) {
   Request request;
@@ -111,10 +108,9 @@ nlohmann::json views_of(const Scene& scene, std::span<const Pictured> pictured, 
   std::filesystem::remove_all(folder);
   PageFolder page_folder(folder);
   write_diagnosis_page(page_folder, scene, diagnosis, pictured);
-  std::ostringstream text;
-  text << std::ifstream(folder / "index.html").rdbuf();
+  const std::string page = test::text_of(folder / "index.html");
   std::filesystem::remove_all(folder);
-  const std::string page = text.str(), from = "id=\"diagnosis\">";
+  const std::string from = "id=\"diagnosis\">";
   EXPECT_EQ(page.find("src="), std::string::npos) << "it is one file";
   const std::size_t begin = page.find(from) + from.size();
   return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin))["views"];
@@ -163,7 +159,7 @@ TEST(DiagnosisText, SaysWhatMakesTheFirstStageNoMistake) {
 }
 
 TEST(DiagnosisPage, OfAnAntialiasedSceneShowsTheFrameAndAPass) {
-  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/antialias/supersample_3.json", {});
+  const Scene scene = suite_scene("antialias/supersample_3");
   const Scene pass = passes_of(scene).front();
   const Capture frame = pipeline::make_pipeline()->capture(scene, Request{});
   check::Diagnosis diagnosis;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "scene/mesh/mesh_file.h"
 
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 
@@ -29,7 +29,7 @@ inline Mesh load_one(const std::filesystem::path& file) {
 class MeshFile : public TestFolder {
  protected:
   std::filesystem::path write(const std::string& text, const std::string& name = "mesh.obj") const {
-    std::ofstream(root_ / name, std::ios::binary) << text;
+    test::write_text(root_ / name, text);
     return root_ / name;
   }
   Mesh load(const std::string& text) const { return load_one(write(text)); }

@@ -7,13 +7,12 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <initializer_list>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "tests/scene/mesh_files.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -102,8 +101,7 @@ TEST_F(MeshFile, RefusesGltf) {
 
 TEST_F(MeshFile, Refuses3ds) {
   refused(write("MMMM", "mesh.3ds"), "expected");
-  std::ifstream in(fs::path(PLUMBLINE_ASSETS) / "cube.3ds", std::ios::binary);
-  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const std::string whole = test::text_of(fs::path(PLUMBLINE_ASSETS) / "cube.3ds");
   ASSERT_GT(whole.size(), 600u);
   EXPECT_NO_THROW(load_parts(write(whole, "mesh.3ds")));
   for (std::size_t size = 29; size < whole.size(); size += 29) {

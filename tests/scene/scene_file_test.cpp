@@ -5,10 +5,10 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -22,7 +22,7 @@ class SceneFile : public TestFolder {
 
   fs::path write(const std::string& text, const std::string& name = "group/scene.json") const {
     fs::create_directories((root_ / name).parent_path());
-    std::ofstream(root_ / name, std::ios::binary) << text;
+    test::write_text(root_ / name, text);
     return root_ / name;
   }
   Scene load(const std::string& text) const { return load_scene(write(text), {.asset_folders = {root_ / "assets"}}); }

@@ -18,7 +18,9 @@
 #include "scene/json/json_file.h"
 #include "tests/property/scene_text.h"
 #include "tests/scene/schema_samples.h"
+#include "tests/suite.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -27,12 +29,11 @@ using namespace test;
 
 class SceneSchema : public TestFolder {
  protected:
-  SceneSchema() : file_(PLUMBLINE_SOURCE_DIR "/tests/scenes/scene.schema.json"), schema_(file_.root()) {
-    std::ofstream(root_ / "empty.part.json") << "{}";
+  SceneSchema() : file_(suite_folder() / "scene.schema.json"), schema_(file_.root()) {
+    test::write_text(root_ / "empty.part.json", "{}");
     // One texel: uncompressed, 1 x 1, 24 bits
-    std::ofstream(root_ / "image.tga", std::ios::binary)
-        << std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\30\0\1\2\3", 21);
-    std::ofstream(root_ / "mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    test::write_text(root_ / "image.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\30\0\1\2\3", 21));
+    test::write_text(root_ / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   }
 
   /// A definition by its path below "definitions"; empty: the scene.
@@ -65,7 +66,7 @@ class SceneSchema : public TestFolder {
   Scene load(const Sample& sample, const Members& members) const {
     std::string text = sample.scene;
     text.replace(text.find('$'), 1, object(members));
-    std::ofstream(root_ / "scene.json") << text;
+    test::write_text(root_ / "scene.json", text);
     return load_scene(root_ / "scene.json", {.asset_folders = {}});
   }
   /// The loader's error, without file and place; "" if it reads the scene.

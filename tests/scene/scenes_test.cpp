@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
 
 TEST(Scenes, AllLoadAndEveryStateOccurs) {
   std::set<std::string> names, states;
-  const std::vector<std::filesystem::path> folder{std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "tests/scenes"};
-  for (const std::filesystem::path& file : find_scenes(folder)) {
+  for (const std::filesystem::path& file : suite_files()) {
     const Scene s = load_scene(file);
     EXPECT_TRUE(names.insert(s.name).second) << s.name;
     const auto seen = [&](const char* what, auto value) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "capture/files/image_file.h"
@@ -11,6 +10,7 @@
 #include "scene/texture/texture_file.h"
 #include "scene/texture/texture_images.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -169,20 +169,19 @@ TEST_F(TextureFile, WhatIsNoNumberIsRefused) {
 TEST_F(TextureFile, TooLargeOrTruncatedIsRefused) {
   write_image(root_ / "a.png", small_plane());
   EXPECT_EQ(failure("a.png", 3), "expected at most 16384 texels a side, and 3 more in all, found 2 x 2");
-  std::ifstream in(root_ / "a.png", std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  std::ofstream(root_ / "cut.png", std::ios::binary) << bytes.substr(0, bytes.size() - 30);
+  const std::string bytes = test::text_of(root_ / "a.png");
+  test::write_text(root_ / "cut.png", bytes.substr(0, bytes.size() - 30));
   EXPECT_EQ(failure("cut.png").substr(0, 39), "expected an image that is whole, found ");
 }
 
 TEST_F(TextureFile, ASceneHasItsTexturesAndTheDrawsNameThem) {
   write_image(root_ / "a.png", small_plane());
-  std::ofstream(root_ / "scene.json") << R"({"description": "d", "textures": {
+  test::write_text(root_ / "scene.json", R"({"description": "d", "textures": {
     "b": {"image": {"file": "a.png"}, "min": "linear", "wrap_t": "mirrored_repeat", "border": [0, 1, 0, 1]},
     "a": {"image": {"noise": {}}, "format": "luminance"}},
     "defaults": {"texture": {"name": "b", "environment": "decal"}},
     "draws": [{"mesh": {"quad": {}}}, {"mesh": {"globe": {"slices": 4, "stacks": 3}},
-              "texture": {"name": "a", "environment": "modulate"}}]})";
+              "texture": {"name": "a", "environment": "modulate"}}]})");
   const Scene scene = load_scene(root_ / "scene.json");
   ASSERT_EQ(scene.textures.size(), 2u);
   EXPECT_EQ(scene.textures[1].name, "b");
@@ -210,9 +209,9 @@ TEST_F(TextureFile, ASceneHasItsTexturesAndTheDrawsNameThem) {
 }
 
 TEST_F(TextureFile, AMeshFilesTextureCoordinatesCome) {
-  std::ofstream(root_ / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 2 0.25\nvt 0 1\nf 1/1 2/2 3/3\n";
-  std::ofstream(root_ / "scene.json") << R"({"description": "d", "textures": {"a": {"image": {"noise": {}}}},
-    "draws": [{"mesh": {"file": "t.obj"}, "texture": {"name": "a"}}]})";
+  test::write_text(root_ / "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 2 0.25\nvt 0 1\nf 1/1 2/2 3/3\n");
+  test::write_text(root_ / "scene.json", R"({"description": "d", "textures": {"a": {"image": {"noise": {}}}},
+    "draws": [{"mesh": {"file": "t.obj"}, "texture": {"name": "a"}}]})");
   const Scene scene = load_scene(root_ / "scene.json");
   EXPECT_EQ(scene.meshes[0].texcoords, (std::vector<glm::vec2>{{0, 0}, {2, 0.25f}, {0, 1}}));
 }

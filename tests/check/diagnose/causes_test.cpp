@@ -11,10 +11,9 @@
 #include "faults/faults.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/antialias.h"
-#include "scene/file/scene_file.h"
 #include "tests/check/fixtures.h"
-#include "tests/check/suite_scenes.h"
 #include "tests/extent.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {

@@ -11,7 +11,7 @@
 #include "scene/file/scene_file.h"
 #include "tests/check/judge/judge_fixtures.h"
 #include "tests/check/judge/spoiled_renderer.h"
-#include "tests/check/suite_scenes.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {
@@ -77,7 +77,7 @@ class WithoutLevels : public Spoiled {
 };
 
 TEST_F(Diagnose, PrintsNoLevelOfDetailThatIsNotTold) {
-  scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/texture/board_linear.json", {});
+  scene = suite_scene("texture/board_linear");
   for (const Stage stage : {Stage::texture, Stage::shade}) {
     WithoutLevels candidate(pipeline::make_pipeline(), {stage});
     const Diagnosis d = of(candidate);
@@ -290,9 +290,8 @@ TEST(Repair, RoundsEveryNumber) {
 
 // Exact's records, rounded, in the place of every other stage's: what is right raises nothing on them.
 TEST_F(Diagnose, RaisesNothingElseOnAnySceneWhereEveryOtherStageIsRepaired) {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   std::size_t files = 0, scenes = 0, findings = 0;
-  for (const auto& file : find_scenes(folder)) {
+  for (const auto& file : suite_files()) {
     if (file.parent_path().stem() == "models") continue;
     const bool even = ++files % 2 == 0;
     if (files / 2 % one_of(16) != 0) continue;

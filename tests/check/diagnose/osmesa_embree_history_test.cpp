@@ -2,10 +2,10 @@
 #include "check/diagnose/history.h"
 #include "reference/embree/embree.h"
 #include "reference/osmesa/osmesa.h"
-#include "scene/file/scene_file.h"
 #include "tests/check/judge/fates_scene.h"
 #include "tests/check/judge/judge_fixtures.h"
 #include "tests/extent.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {
@@ -82,8 +82,7 @@ TEST_F(All, scenes_of_the_suite) {
   for (const char* name : {"stencil/everything", "stencil/funcs", "depth/interpenetrating", "depth/functions",
                            "cull/both_windings", "cull/closed_mesh", "scissor/windows", "alpha_test/leaves",
                            "blend/layers", "interpolation/w_ratio", "antialias/samples_meeting"}) {
-    const std::filesystem::path file = std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/") + name + ".json";
-    const Scene scene = load_scene(file, {});
+    const Scene scene = suite_scene(name);
     const glm::ivec2 size(scene.frame.width, scene.frame.height);
     for (const glm::ivec2 p : {size / 2, size / 4, 3 * size / 4}) {
       if (next++ % one_of(4) == 0) expect_alike(ask(scene, p), scene);  // 4: now the one, now the other

@@ -7,13 +7,12 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <thread>
 
 #include "base/temporary_path.h"
 #include "check/golden/golden_set.h"
+#include "tests/text_file.h"
 
 namespace plumbline::check {
 namespace {
@@ -45,13 +44,6 @@ Update update_of(float shade) {
     out.manifest.scenes[scene.name] = golden;
   }
   return out;
-}
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 // PLUMBLINE_KILLS: how many, 30 where it is not said.
@@ -91,7 +83,7 @@ TEST(GoldenKill, leaves_the_old_set_or_the_new_one) {
     int status = 0;
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFSIGNALED(status) || WEXITSTATUS(status) == 0);
-    const std::string text = bytes_of(folder / "manifest.json");
+    const std::string text = test::text_of(folder / "manifest.json");
     ASSERT_TRUE(text == texts[0] || text == texts[1]) << "kill " << i;
     if (text == texts[next]) now = next;
     ++(now == next ? news : olds);
@@ -109,7 +101,7 @@ TEST(GoldenKill, leaves_the_old_set_or_the_new_one) {
   write(1 - now);  // one that is left alone tidies up
   const GoldenSet set(folder, GoldenSet::Access::read);
   EXPECT_EQ(set.strays().leftovers, std::vector<std::string>{});
-  EXPECT_EQ(bytes_of(folder / "manifest.json"), texts[1 - now]);
+  EXPECT_EQ(test::text_of(folder / "manifest.json"), texts[1 - now]);
   fs::remove_all(folder);
 }
 

@@ -11,23 +11,21 @@
 #include <fcntl.h>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <random>
 #include <set>
-#include <sstream>
 
 #include "base/atomic_path.h"
 #include "base/temporary_path.h"
 #include "capture/files/image_file.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes";
 const fs::path kGoldens = PLUMBLINE_SOURCE_DIR "/golden";
 
 class Goldens : public testing::Test {
@@ -108,8 +106,7 @@ TEST_F(Goldens, scene_hash_sees_the_file_what_it_includes_meshes_and_texels) {
 // One scene of each pair of formats that the suite has.
 TEST_F(Goldens, files_hold_every_format_without_loss) {
   std::set<std::string> seen;
-  const fs::path folder[] = {kScenes};
-  for (const fs::path& file : find_scenes(folder)) {
+  for (const fs::path& file : suite_files()) {
     if (file.parent_path().stem() == "models") continue;
     const Scene scene = load_scene(file);
     if (!seen.insert(std::string(name_of(scene.frame.color))).second &&
@@ -141,7 +138,7 @@ TEST_F(Goldens, images_of_other_channels_or_numbers_are_refused) {
 
 TEST_F(Goldens, a_last_bit_of_colour_of_depth_or_of_a_stage_is_told) {
   for (const char* name : {"cull/both_windings.json", "frame/rgba16.json", "frame/one_pixel_float.json"}) {
-    const Scene scene = load_scene(kScenes / name);
+    const Scene scene = load_scene(suite_folder() / name);
     const Fingerprint drawn = fingerprint(scene, *ours_);
 
     Fingerprint color = drawn;
@@ -185,7 +182,7 @@ class Broken : public Renderer {
 };
 
 TEST_F(Goldens, a_renderer_that_fails_is_a_difference_not_the_end) {
-  const Scene scene = load_scene(kScenes / "cull/both_windings.json");
+  const Scene scene = suite_scene("cull/both_windings");
   bless(scene, fingerprint(scene, *ours_));
   Broken broken;
   const GoldenSet set(folder_ / "golden", GoldenSet::Access::read);
@@ -211,7 +208,7 @@ class OtherwiseUnwatched : public Renderer {
 
 TEST_F(Goldens, the_picture_is_the_one_that_is_drawn_unwatched) {
   for (const char* name : {"clip/behind_eye.json", "antialias/samples_cut.json"}) {
-    const Scene scene = load_scene(kScenes / name, {});
+    const Scene scene = load_scene(suite_folder() / name, {});
     bless(scene, fingerprint(scene, *ours_));
     OtherwiseUnwatched renderer;
     const GoldenSet set(folder_ / "golden", GoldenSet::Access::read);
@@ -232,7 +229,7 @@ TEST_F(Goldens, the_golden_is_no_judge) {
 }
 
 TEST_F(Goldens, minus_zero_is_not_zero) {
-  Scene scene = load_scene(kScenes / "cull/both_windings.json");
+  Scene scene = suite_scene("cull/both_windings");
   scene.frame.color = ColorFormat::rgba32f;
   Fingerprint drawn = fingerprint(scene, *ours_);
   float& black = drawn.color(0, 0).r;
@@ -256,7 +253,7 @@ SceneVerdict agreeing() {
 }
 
 TEST_F(Goldens, a_set_begins_in_an_empty_folder_and_leaves_other_sets_alone) {
-  const Scene scene = load_scene(kScenes / "cull/both_windings.json", {});
+  const Scene scene = suite_scene("cull/both_windings");
   const Fingerprint drawn = fingerprint(scene, *ours_);
   bless(scene, drawn);
   const auto files = [&] {
@@ -278,7 +275,7 @@ TEST_F(Goldens, a_set_begins_in_an_empty_folder_and_leaves_other_sets_alone) {
 }
 
 TEST_F(Goldens, a_name_that_could_not_be_read_is_not_written) {
-  Scene scene = load_scene(kScenes / "cull/both_windings.json", {});
+  Scene scene = suite_scene("cull/both_windings");
   const Fingerprint drawn = fingerprint(scene, *ours_);
   for (const char* name : {"group/.", "group/..", "../scene", "/scene", "", "group//scene"}) {
     scene.name = name;
@@ -345,8 +342,7 @@ TEST(golden_vouch, disputes_are_listed) {
 TEST(golden_folder, has_a_golden_for_each_scene_and_nothing_else_under_20_MiB) {
   const GoldenSet set(kGoldens, GoldenSet::Access::read);
   std::set<std::string> scenes, goldens;
-  const fs::path folder[] = {kScenes};
-  for (const fs::path& file : find_scenes(folder))
+  for (const fs::path& file : suite_files())
     scenes.insert((file.parent_path().filename() / file.stem()).generic_string());
   for (const auto& [name, golden] : set.manifest().scenes) goldens.insert(name);
   EXPECT_EQ(goldens, scenes) << "scripts/regenerate_goldens";

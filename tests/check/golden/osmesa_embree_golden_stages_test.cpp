@@ -12,7 +12,7 @@
 #include "reference/exact/exact.h"
 #include "reference/osmesa/osmesa.h"
 #include "renderers/pipeline_renderer.h"
-#include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {
@@ -46,7 +46,7 @@ TEST(GoldenStages, AFaultInAnyIsNamedByTheGoldensAndByTheReferences) {
   std::set<Stage> stages;
   for (const StageBreak& b : kStageBreaks) {
     const faults::Fault fault = faults::named(b.fault);
-    const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + std::string(b.scene) + ".json", {});
+    const Scene scene = suite_scene(std::string(b.scene));
     const auto candidate = pipeline::make_pipeline(fault.stages());
     const GoldenDifference difference = compare_golden(scene, *candidate, goldens);
     EXPECT_EQ(difference.why, "") << b.fault;

@@ -6,7 +6,6 @@
 // count nothing, and reads channels and pixels that one image lacks as 0.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <optional>
 
@@ -18,6 +17,7 @@
 #include "check/compare/compare_stored.h"
 #include "tests/check/fixtures.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::check {
 namespace {
@@ -306,7 +306,7 @@ TEST_F(ImagePairs, AreOfOneImageAFile) {
   };
   refused(folder / "none.png", "found none");
   refused(folder, "found none");
-  std::ofstream(folder / "text.png") << "text";
+  test::write_text(folder / "text.png", "text");
   refused(folder / "text.png", "cannot be read");
   save(folder / "cut.exr", gradient(TypeDesc::FLOAT, {"R", "G", "B"}, 64, 64));
   fs::resize_file(folder / "cut.exr", fs::file_size(folder / "cut.exr") / 2);

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <random>
 #include <set>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -19,7 +17,8 @@
 #include "matrix/matrix.h"
 #include "matrix/report.h"
 #include "pipeline/stages.h"
-#include "scene/file/scene_file.h"
+#include "tests/suite.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 
@@ -42,14 +41,13 @@ TEST(Faults, there_are_five_in_each_stage_and_twenty_that_others_report) {
 }
 
 TEST(Faults, are_as_many_as_the_readme_says) {
-  std::ostringstream text;
-  text << std::ifstream(PLUMBLINE_SOURCE_DIR "/tests/README.md").rdbuf();
+  const std::string text = test::text_of(PLUMBLINE_SOURCE_DIR "/tests/README.md");
   const auto reported = std::ranges::count_if(faults::of_stages(), [](const auto& f) { return !f.report.empty(); });
   const std::size_t all = faults::all().size(), of_stages = faults::of_stages().size();
   for (const std::string& part : {fmt::format("{} bugs ({} of them from public bug reports", of_stages, reported),
                                   fmt::format("the notes' {} mistakes", all - of_stages),
                                   fmt::format("{} legal variants", faults::legal_variants().size())}) {
-    EXPECT_NE(text.str().find(part), std::string::npos) << part;
+    EXPECT_NE(text.find(part), std::string::npos) << part;
   }
 }
 
@@ -58,14 +56,10 @@ matrix::Subject subject_of(std::string_view name) {
   return {std::string(name), fault.stages(), {fault.stage}};
 }
 
-Scene scene_of(std::string_view file) {
-  return load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/").append(file), {});
-}
-
 // Geometry, pixels, records alone and what is resolved; and nothing where it is not asked for.
 TEST(FaultMatrix, a_fault_affects_the_scenes_that_it_changes) {
-  const std::vector<Scene> scenes = {scene_of("coverage/shared_edges.json"), scene_of("antialias/supersample_3.json"),
-                                     scene_of("light/flat_sphere.json")};
+  const std::vector<Scene> scenes = {suite_scene("coverage/shared_edges"), suite_scene("antialias/supersample_3"),
+                                     suite_scene("light/flat_sphere")};
   const std::vector<matrix::Subject> subjects = {
       {"ours", pipeline::production_stages(), {}}, subject_of("window.y_flipped"),
       subject_of("coverage.inclusive_edges"),      subject_of("texture.t_flipped"),

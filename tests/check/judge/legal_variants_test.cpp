@@ -7,7 +7,7 @@
 #include "matrix/legal.h"
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
-#include "tests/check/suite_scenes.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(all, LegalVariants,
                          [](const auto& variant) { return std::string(variant.param.name); });
 
 TEST(LegalVariants, what_a_folder_holds_is_judged_as_what_was_drawn) {
-  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/clip/behind_eye.json", {});
+  const Scene scene = suite_scene("clip/behind_eye");
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();
   Request request;

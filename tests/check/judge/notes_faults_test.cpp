@@ -19,12 +19,13 @@
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 
 namespace {
 
-const std::filesystem::path kFolder = PLUMBLINE_SOURCE_DIR "/tests/scenes/notes";
+const std::filesystem::path kFolder = suite_folder() / "notes";
 
 /// The scenes of the notes, by file name without its ending.
 const std::map<std::string, Scene>& scenes() {

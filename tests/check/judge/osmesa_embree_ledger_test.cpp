@@ -10,7 +10,7 @@
 
 #include "check/verdict/ledger.h"
 #include "report/runs/run_merge.h"
-#include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -29,7 +29,6 @@ class Suite : public testing::Test {
 
 TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
   const report::CheckRun run = all();
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   std::set<std::filesystem::path> judged;
   std::size_t comparisons = 0;
   for (const check::SceneVerdict& verdict : run.verdicts) {
@@ -39,9 +38,9 @@ TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
   }
   std::ifstream in(PLUMBLINE_SUITE "/../slow_scenes.txt");  // judged by scripts/test all
   std::set<std::filesystem::path> slow;
-  for (std::string name; std::getline(in, name);) slow.insert(folder[0] / (name + ".json"));
+  for (std::string name; std::getline(in, name);) slow.insert(suite_folder() / (name + ".json"));
   EXPECT_LE(slow.size(), 13u);
-  for (const auto& file : find_scenes(folder)) EXPECT_TRUE(judged.contains(file) || slow.contains(file)) << file;
+  for (const auto& file : suite_files()) EXPECT_TRUE(judged.contains(file) || slow.contains(file)) << file;
   for (const char* reference : {"embree", "exact"}) EXPECT_TRUE(run.head.versions.contains(reference));
   EXPECT_TRUE(run.head.versions.contains("osmesa") || run.head.versions.contains("egl"));
   EXPECT_GE(comparisons, 10'000u);

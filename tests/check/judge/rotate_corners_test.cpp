@@ -7,8 +7,8 @@
 
 #include "check/judge/judge_single.h"
 #include "reference/exact/exact.h"
-#include "scene/file/scene_file.h"
 #include "tests/check/judge/judge_fixtures.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {
@@ -104,7 +104,7 @@ TEST(RotateCorners, HoldWhereverTheyBegin) {
   const Reference references[] = {{"exact", exact.get()}};
   for (const char* name : {"coverage/fan", "clip/each_plane", "phong/glass", "texture/clipped", "lines/widths"}) {
     OursAsAnothers turned(rotate_all);
-    const Scene scene = load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/") + name + ".json", {});
+    const Scene scene = suite_scene(name);
     const SceneVerdict verdict = judge_single(scene, turned, references);
     for (const Comparison& c : verdict.comparisons) {
       EXPECT_NE(c.outcome, Outcome::different) << name << ' ' << name_of(c.stage) << ' ' << c.note;

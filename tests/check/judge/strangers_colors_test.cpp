@@ -10,8 +10,8 @@
 #include "capture/renderers/replayed_renderer.h"
 #include "check/judge/judge_single.h"
 #include "reference/exact/exact.h"
-#include "tests/check/suite_scenes.h"
 #include "tests/learn/other_colors.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {

@@ -12,7 +12,7 @@
 #include "renderers/pipeline_renderer.h"
 #include "tests/check/fixtures.h"
 #include "tests/check/judge/row_of.h"
-#include "tests/check/suite_scenes.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {

@@ -14,7 +14,7 @@
 #include "renderers/pipeline_renderer.h"
 #include "tests/check/fixtures.h"
 #include "tests/check/judge/judge_fixtures.h"
-#include "tests/check/suite_scenes.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {

@@ -6,17 +6,15 @@
 #include "reference/arithmetic/texture.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/draw_index.h"
-#include "scene/file/scene_file.h"
 #include "tests/check/fixtures.h"
 #include "tests/check/judge/row_of.h"
 #include "tests/learn/drawn_otherwise.h"
+#include "tests/suite.h"
 
 namespace plumbline::check {
 namespace {
 
 using C = Conventions;
-
-Scene scene_of_suite(const std::string& name) { return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name, {}); }
 
 Capture drawn_by(const Scene& scene, decltype(pipeline::Stages::texture) texture) {
   pipeline::Stages stages = pipeline::production_stages();
@@ -40,8 +38,8 @@ void expect_right_if_declared(const Scene& scene, Capture candidate, const C& de
 TEST(StrangersTextures, ALevelOfDetailMayBeApproximatedWhereThatIsDeclared) {
   C declared;
   declared.level_of_detail = C::LevelOfDetail::approximate;
-  for (const char* name : {"texture/floor_linear_mipmap_linear.json", "texture/floor_nearest.json"}) {
-    const Scene scene = scene_of_suite(name);
+  for (const char* name : {"texture/floor_linear_mipmap_linear", "texture/floor_nearest"}) {
+    const Scene scene = suite_scene(name);
     Capture candidate = drawn_by(scene, test::by_largest_rho);
     expect_right_if_declared(scene, candidate, declared);
     declared.level_of_detail = C::LevelOfDetail::per_square;
@@ -57,14 +55,14 @@ TEST(StrangersTextures, ALevelOfDetailMayBeApproximatedWhereThatIsDeclared) {
 TEST(StrangersTextures, MagnificationMayEndAtZeroWhereThatIsDeclared) {
   C declared;
   declared.magnified = C::Magnified::up_to_zero;
-  const Scene scene = scene_of_suite("texture/wall_switch_over.json");
+  const Scene scene = suite_scene("texture/wall_switch_over");
   expect_right_if_declared(scene, drawn_by(scene, test::magnified_up_to_zero), declared);
 }
 
 TEST(StrangersTextures, EitherLevelIsNearestHalfWayWhereThatIsDeclared) {
   C declared;
   declared.half_way_level = C::HalfWay::either;
-  const Scene scene = scene_of_suite("texture/half_way_levels.json");
+  const Scene scene = suite_scene("texture/half_way_levels");
   const Capture candidate = drawn_by(scene, test::half_way_up);
   expect_right_if_declared(scene, candidate, declared);
   const Capture ours = drawn_by(scene, pipeline::production_stages().texture);
@@ -75,7 +73,7 @@ TEST(StrangersTextures, EitherLevelIsNearestHalfWayWhereThatIsDeclared) {
 TEST(StrangersTextures, WeightsHaveTheDeclaredBits) {
   C declared;
   declared.texture_bits = 6;
-  const Scene scene = scene_of_suite("texture/board_linear.json");
+  const Scene scene = suite_scene("texture/board_linear");
   const Capture candidate = drawn_by(scene, test::weights_of_6_bits);
   expect_right_if_declared(scene, candidate, declared);
   declared.texture_bits = 9;
@@ -83,7 +81,7 @@ TEST(StrangersTextures, WeightsHaveTheDeclaredBits) {
 }
 
 TEST(StrangersTextures, APolygonOffsetHasTheDeclaredUnit) {
-  const Scene scene = scene_of_suite("polygon_offset/steps.json");
+  const Scene scene = suite_scene("polygon_offset/steps");
   const Capture ours = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
   const Capture candidate =
       pipeline::make_pipeline()->capture(test::with_half_of_offsets(scene), {.records = StageSet::all()});
@@ -110,9 +108,9 @@ Capture sampled_off_by(const Scene& scene, Capture candidate, double share) {
 
 // t = 0.145833328 of 48 rows is 7 in float, 6.99999974 in double: another row.
 TEST(StrangersTextures, TexelCoordinatesMayBeComputedInFloat) {
-  for (const char* name : {"texture/borders_at_centres.json", "texture/wall_repeat.json"}) {
+  for (const char* name : {"texture/borders_at_centres", "texture/wall_repeat"}) {
     SCOPED_TRACE(name);
-    const Scene scene = scene_of_suite(name);
+    const Scene scene = suite_scene(name);
     const Capture ours = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
     for (const double share : {3 * kU, -3 * kU})
       EXPECT_NE(row_of_stage(scene, sampled_off_by(scene, ours, share), Stage::texture, C()).outcome,
@@ -125,7 +123,7 @@ TEST(StrangersTextures, TexelCoordinatesMayBeComputedInFloat) {
 }
 
 TEST(StrangersTextures, ALevelOfDetailMayBeComputedInFloat) {
-  const Scene scene = scene_of_suite("texture/floor_linear.json");
+  const Scene scene = suite_scene("texture/floor_linear");
   const auto off_by = [&](double lod) {
     Capture out = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
     for (Texel<double>& texel : out.records.texels) texel.lod += lod;

@@ -2,8 +2,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "base/temporary_path.h"
@@ -13,6 +11,7 @@
 #include "check/verdict/verdict_bytes.h"
 #include "scene/antialias.h"
 #include "tests/check/judge/judge_fixtures.h"
+#include "tests/text_file.h"
 
 namespace plumbline::check {
 namespace {
@@ -166,12 +165,12 @@ TEST_F(KeptVerdicts, FallsByJudgesSceneAndReferences) {
 
 TEST_F(KeptVerdicts, FallsByAFileOfTheScene) {
   const fs::path file = root / "scene.json";
-  std::ofstream(file) << "{}";
+  test::write_text(file, "{}");
   scene.files = {file.string()};
   folder = root / "kept";
   judged_by_asking();
   EXPECT_EQ(judged_by_asking(), 0);
-  std::ofstream(file) << "{ }";
+  test::write_text(file, "{ }");
   EXPECT_GT(judged_by_asking(), 0);
   EXPECT_EQ(judged_by_asking(), 0);
   began = fs::last_write_time(file);  // written since the scene was read, perhaps
@@ -259,10 +258,9 @@ TEST_F(KeptVerdicts, IsNoneWhereItsFileIsDamaged) {
   judged_by_asking();
   const std::string first = bytes;
   ASSERT_EQ(files().size(), 1u);
-  std::ifstream in(files()[0], std::ios::binary);
-  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const std::string whole = test::text_of(files()[0]);
   const auto holds_with = [&](const std::string& damaged) {
-    std::ofstream(files()[0], std::ios::binary | std::ios::trunc) << damaged;
+    test::write_text(files()[0], damaged);
     EXPECT_GT(judged_by_asking(), 0);
     EXPECT_EQ(bytes, first);
   };
@@ -301,7 +299,7 @@ TEST_F(KeptVerdicts, AreTrimmedAmongFilesOfOthers) {
   const fs::path others[] = {folder / "notes.txt", folder / "photos" / "one.verdict", kept.parent_path() / "aa.verdict",
                              folder / kept.filename()};
   fs::create_directories(folder / "photos");
-  for (const fs::path& other : others) std::ofstream(other) << std::string(5000, 'o');
+  for (const fs::path& other : others) test::write_text(other, std::string(5000, 'o'));
   store.trim(2000);
   EXPECT_TRUE(store.find(key)) << "files of others take no room";
   store.trim(0);
@@ -311,7 +309,7 @@ TEST_F(KeptVerdicts, AreTrimmedAmongFilesOfOthers) {
 
 TEST_F(KeptVerdicts, NeedNoFolder) {
   const fs::path file = root / "file";
-  std::ofstream(file) << "no folder";
+  test::write_text(file, "no folder");
   folder = file / "kept";
   EXPECT_GT(judged_by_asking(), 0);
   EXPECT_GT(judged_by_asking(), 0);

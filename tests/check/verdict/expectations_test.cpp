@@ -1,10 +1,10 @@
 // Known differences: what occurs is expected, what does not, or no more, fails.
-#include <fstream>
 #include <stdexcept>
 
 #include "check/verdict/expectations.h"
 #include "scene/json/json_tree.h"
 #include "tests/test_folder.h"
+#include "tests/text_file.h"
 
 namespace plumbline::check {
 namespace {
@@ -16,7 +16,7 @@ const std::vector<std::string> kRenderers = {"osmesa", "exact"};
 
 struct Expectations : TestFolder {
   std::vector<Expectation> read_text(const std::string& text) const {
-    std::ofstream(root_ / "known.json") << text;
+    test::write_text(root_ / "known.json", text);
     return read_expectations(root_ / "known.json", kRenderers);
   }
   std::vector<Expectation> known() const { return read_text("{\"expectations\": [" + kRow + "]}"); }

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "cli/likely/known_faults.h"
-#include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline::cli {
 namespace {
 
 struct Holes : testing::Test {
-  Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/light/sphere_gouraud.json", {});
+  Scene scene = suite_scene("light/sphere_gouraud");
   GivenFrame given{draw_with({}, scene, {}), {}, {}};
 
   bool is_cleared(std::size_t i) const { return given.depth.values()[i] == scene.frame.clear_depth; }

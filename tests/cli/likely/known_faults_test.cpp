@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/check/suite_scenes.h"
+#include "tests/suite.h"
 
 namespace plumbline::cli {
 namespace {

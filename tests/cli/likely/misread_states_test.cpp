@@ -12,7 +12,7 @@
 #include "cli/likely/misread_states.h"
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
-#include "tests/check/suite_scenes.h"
+#include "tests/suite.h"
 
 namespace plumbline::cli {
 

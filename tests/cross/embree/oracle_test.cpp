@@ -41,7 +41,7 @@ class Finders : public ::testing::TestWithParam<int> {};
 
 TEST_P(Finders, RaysAndBoxesComeToTheSameAnswers) {
   for (unsigned seed = 1; seed <= 25; seed += static_cast<unsigned>(one_of(8))) {
-    const Scene scene = test::random_scene(GetParam(), seed);
+    const Scene scene = test::small_scene(GetParam(), seed);
     expect_same(by_rays(scene), math::legal_by_boxes(scene, Request{}), scene.name);
   }
 }
@@ -50,7 +50,7 @@ TEST_P(Finders, RaysAndBoxesComeToTheSameAnswers) {
 TEST_P(Finders, AmbiguousPixelsAreAtMostTwiceThePrediction) {
   double counted = 0, predicted = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
-    Scene scene = test::random_scene(GetParam(), seed);
+    Scene scene = test::small_scene(GetParam(), seed);
     const Legal legal = math::legal_by_boxes(scene, Request{});
     counted += ambiguous(legal);
     predicted += legal.predicted_ambiguous;

@@ -6,7 +6,6 @@
 // random, the errors of the some N cells on it add up as their root: RMS falls as N^(-3/2).
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <random>
 
 #include <fmt/format.h>
@@ -16,6 +15,7 @@
 #include "pipeline/render.h"
 #include "tests/extent.h"
 #include "tests/pipeline/window_scene.h"
+#include "tests/text_file.h"
 
 namespace plumbline {
 namespace {
@@ -77,7 +77,7 @@ void plot(const std::vector<Row>& rows, const std::filesystem::path& file) {
   svg +=
       "<text x=\"270\" y=\"330\" text-anchor=\"middle\">samples a pixel; dashed: falling as 1/N</text>"
       "<text x=\"70\" y=\"14\">RMS error of coverage against the exact area</text></svg>\n";
-  std::ofstream(file) << svg;
+  test::write_text(file, svg);
 }
 
 TEST(AntialiasError, FallsWithTheNumberOfSamples) {

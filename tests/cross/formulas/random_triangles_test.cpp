@@ -23,7 +23,7 @@ TEST_P(RandomTriangles, every_stage_equals_exact_from_our_records) {
   const auto exact = exact::make_exact();
   std::uint64_t fragments = 0;
   for (int i = 0; i < kScenesPerKind / static_cast<int>(one_of(8)); ++i) {
-    const Scene scene = random_scene(kind, kTrianglesPerScene, static_cast<std::uint64_t>(i) * 31 + GetParam());
+    const Scene scene = scene_of_triangles(kind, kTrianglesPerScene, static_cast<std::uint64_t>(i) * 31 + GetParam());
     const Capture capture = ours->capture(scene, {.records = StageSet::all()});
     for (const check::Comparison& c : check::judge_records(scene, capture, *exact)) {
       EXPECT_FALSE(check::is_failure(c.outcome))

@@ -6,6 +6,7 @@
 #include "scene/file/scene_file.h"
 #include "tests/cross/random_scenes.h"
 #include "tests/extent.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -34,14 +35,13 @@ void expect_equal_planes(const Scene& scene) {
 }
 
 TEST(Taps, planes_are_equal_on_every_scene) {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-  const auto files = find_scenes(folder);
+  const auto files = suite_files();
   for (std::size_t i = 0; i < files.size(); i += one_of(16)) expect_equal_planes(load_scene(files[i], {}));
 }
 
 TEST(Taps, planes_are_equal_on_random_triangles) {
   for (const SceneKind& kind : kinds()) {
-    for (std::uint64_t seed = 0; seed < 12; ++seed) expect_equal_planes(random_scene(kind, 100, seed));
+    for (std::uint64_t seed = 0; seed < 12; ++seed) expect_equal_planes(scene_of_triangles(kind, 100, seed));
   }
 }
 

@@ -15,6 +15,7 @@
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/cross/random_scenes.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -250,10 +251,9 @@ TEST(TriangleAlgorithms, RefuseWhatCouldOverflow) {
 }
 
 TEST(TriangleAlgorithms, EqualExactOnEveryScenesTriangles) {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   constexpr std::size_t kMost = std::size_t{2} << 30;  // a million triangles' records
   long scenes = 0, triangles = 0, covered = 0;
-  for (const auto& file : find_scenes(folder)) {
+  for (const auto& file : suite_files()) {
     if (++scenes % static_cast<long>(one_of(24)) != 0) continue;
     const Scene scene = load_scene(file, {});
     const Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet{Stage::window}, false, {}, {}, kMost});

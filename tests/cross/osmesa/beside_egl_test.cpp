@@ -9,6 +9,7 @@
 #include "scene/file/scene_file.h"
 #include "tests/capture/differing_arrays.h"
 #include "tests/extent.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -46,14 +47,13 @@ void compare_on(const std::vector<std::filesystem::path>& folders, std::size_t e
   }
 }
 
-const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes";
-
 TEST(OsmesaEgl, same_bits_on_a_few_scenes) {
-  compare_on({kScenes + "/clip/each_plane.json", kScenes + "/depth/z16.json", kScenes + "/light/sphere_gouraud.json"});
+  const std::filesystem::path suite = suite_folder();
+  compare_on({suite / "clip/each_plane.json", suite / "depth/z16.json", suite / "light/sphere_gouraud.json"});
 }
 
 // A process for each.
-TEST(OsmesaEgl, same_bits_on_scenes_of_all_kinds) { compare_on({kScenes}, one_of(100)); }
+TEST(OsmesaEgl, same_bits_on_scenes_of_all_kinds) { compare_on({suite_folder()}, one_of(100)); }
 
 // Beside each other, each would draw into the other's current context without a word.
 TEST(OsmesaEgl, one_library_per_process) {
@@ -70,7 +70,7 @@ TEST(OsmesaEgl, one_library_per_process) {
 
 // The comparison can fail: the same scene with one triangle less.
 TEST(OsmesaEgl, other_bits_are_seen) {
-  Scene scene = load_scene(kScenes + "/clip/each_plane.json", {});
+  Scene scene = suite_scene("clip/each_plane");
   const Request all{.records = StageSet::all()};
   const Capture whole = egl()->capture(scene, all);
   EXPECT_EQ(whole.renderer, "egl");

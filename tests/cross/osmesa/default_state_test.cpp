@@ -1,6 +1,4 @@
 // Every pass of OpenGL's starts from one stated state: no scene leaves anything for the next.
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,17 +14,14 @@
 #include "tests/capture/differing_arrays.h"
 #include "tests/cross/osmesa_scenes.h"
 #include "tests/extent.h"
+#include "tests/suite.h"
+#include "tests/text_file.h"
 
 namespace plumbline::test {
 namespace {
 
 const std::string kSource = PLUMBLINE_SOURCE_DIR;
 const std::string kFolder = kSource + "/reference/osmesa/";
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// The first group of each match.
 std::set<std::string> found(const std::string& text, const char* pattern) {
@@ -46,8 +41,8 @@ const std::regex kStateless(
     "Load(Matrixf)|Frustum|Ortho|Rotated|Scaled|Translated");  // LoadIdentity undoes them
 
 TEST(OsmesaDefaultState, sets_every_state_that_is_set_anywhere) {
-  const std::string defaults = text_of(kFolder + "scene/default_state.cpp");
-  const std::string functions = text_of(kFolder + "gl/gl.h");
+  const std::string defaults = test::text_of(kFolder + "scene/default_state.cpp");
+  const std::string functions = test::text_of(kFolder + "gl/gl.h");
   int setters = 0;
   for (const std::string& name : found(functions, R"(F\((\w+)\))")) {
     if (std::regex_match(name, kStateless)) continue;
@@ -90,8 +85,7 @@ struct Suite {
 
 Suite read_suite() {
   Suite suite;
-  const std::filesystem::path folder[] = {kSource + "/tests/scenes"};
-  for (const auto& file : find_scenes(folder)) {
+  for (const auto& file : suite_files()) {
     suite.group_of.push_back(file.parent_path().stem().string());
     suite.groups[suite.group_of.back()].push_back(suite.scenes.size());
     suite.scenes.push_back(load_scene(file, {}));

@@ -10,12 +10,12 @@
 #include "reference/osmesa/readback/polygon_records.h"
 #include "reference/osmesa/scene/default_state.h"
 #include "reference/osmesa/scene/target.h"
-#include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline::osmesa {
 namespace {
 
-Scene crashing_scene() { return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/light/separate_reflection.json", {}); }
+Scene crashing_scene() { return suite_scene("light/separate_reflection"); }
 
 Request polygons() {
   Request request;

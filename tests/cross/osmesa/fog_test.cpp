@@ -7,7 +7,7 @@
 
 #include "reference/exact/exact.h"
 #include "reference/osmesa/osmesa.h"
-#include "scene/file/scene_file.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -46,7 +46,7 @@ std::vector<Shaded<double>> shaded_with(Renderer& exact, const Scene& scene, Cap
 }
 
 TEST(OsmesaFog, IsOfTheVerticesDistancesWhereAPrimitiveReachesBehindTheEye) {
-  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/fog/cut.json");
+  const Scene scene = suite_scene("fog/cut");
   const auto mesa = make_opengl();
   const auto referee = exact::make_exact();
   const Capture theirs = mesa->capture(scene, {});

@@ -9,8 +9,8 @@
 #include "reference/exact/exact.h"
 #include "reference/osmesa/osmesa.h"
 #include "renderers/pipeline_renderer.h"
-#include "scene/file/scene_file.h"
 #include "tests/learn/drawn_otherwise.h"
+#include "tests/suite.h"
 
 namespace plumbline {
 namespace {
@@ -48,7 +48,7 @@ class ForeignRenderer : public Renderer {
 
 // Number of rows that fail.
 int failures(const std::string& name, const Difference& difference, const C& declared) {
-  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name, {});
+  const Scene scene = suite_scene(name);
   pipeline::Stages stages = pipeline::production_stages();
   if (difference.texture != nullptr) stages.texture = difference.texture;
   ForeignRenderer candidate(stages, difference.half_offsets, declared);
@@ -74,34 +74,34 @@ void expect_right_if_declared(const std::string& name, const Difference& differe
 TEST(OpenConventions, LevelsOfDetailMayBeApproximated) {
   C declared;
   declared.level_of_detail = C::LevelOfDetail::approximate;
-  expect_right_if_declared("texture/floor_linear_mipmap_linear.json", {test::by_largest_rho}, declared);
-  expect_right_if_declared("texture/floor_linear_mipmap_nearest.json", {test::by_largest_rho}, declared);
+  expect_right_if_declared("texture/floor_linear_mipmap_linear", {test::by_largest_rho}, declared);
+  expect_right_if_declared("texture/floor_linear_mipmap_nearest", {test::by_largest_rho}, declared);
 }
 
 TEST(OpenConventions, MagnificationMayEndAtZero) {
   C declared;
   declared.magnified = C::Magnified::up_to_zero;
-  expect_right_if_declared("texture/wall_switch_over.json", {test::magnified_up_to_zero}, declared);
+  expect_right_if_declared("texture/wall_switch_over", {test::magnified_up_to_zero}, declared);
 }
 
 TEST(OpenConventions, EitherLevelMayBeNearestHalfWay) {
   C declared;
   declared.half_way_level = C::HalfWay::either;
-  expect_right_if_declared("texture/half_way_levels.json", {test::half_way_up}, declared);
+  expect_right_if_declared("texture/half_way_levels", {test::half_way_up}, declared);
 }
 
 TEST(OpenConventions, WeightsMayHaveFewBits) {
   C declared;
   for (const int bits : {6, 8}) {  // 8 is what plumb learn finds (learn_textures_test.cpp)
     declared.texture_bits = bits;
-    expect_right_if_declared("texture/board_linear.json", {test::weights_of_6_bits}, declared);
+    expect_right_if_declared("texture/board_linear", {test::weights_of_6_bits}, declared);
   }
 }
 
 TEST(OpenConventions, APolygonOffsetsUnitMayBeOneCode) {
   C declared;
   declared.offset_unit = {1, 1};
-  expect_right_if_declared("polygon_offset/steps.json", {nullptr, true}, declared);
+  expect_right_if_declared("polygon_offset/steps", {nullptr, true}, declared);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST(OsmesaRandom, coverage_is_the_same_and_values_within_their_bounds) {
   const check::Reference references[] = {{"osmesa", osmesa.get()}, {"exact", exact.get()}};
   for (const SceneKind& kind : kinds()) {
     for (std::uint64_t seed = 0; seed < 14 / one_of(7); ++seed) {
-      const Scene scene = random_scene(kind, 200, seed);
+      const Scene scene = scene_of_triangles(kind, 200, seed);
       for (const check::Comparison& c : check::judge(scene, *ours, references).comparisons) {
         if (c.judge.reference != "osmesa") continue;
         EXPECT_FALSE(check::is_failure(c.outcome))
