@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/glm.hpp>
 
 namespace plumbline::math {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 inline constexpr double kFloatRounding = 1.0 / (1 << 24);  ///< u, the unit roundoff of float: half an ULP of 1
 

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "capture/float_depth.h"
+#include "reference/arithmetic/bounded.h"
 #include "reference/arithmetic/widths.h"
 
 namespace plumbline::math {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 WindowCorners window_corners(const Projected& scene, const Triangle& t) {
   WindowCorners out;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "reference/arithmetic/bounded.h"
 
@@ -110,7 +109,7 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
       lights.size() < scene.lights.size() ? light_sources(scene) : std::vector<LightSource<double>>();
   LightBounds out;
   const auto anything = [&] {
-    out.magnitude = Vec3<double>(std::numeric_limits<double>::infinity());
+    out.magnitude = Vec3<double>(kInfinity);
     return out;
   };
   if (model.local_viewer && !(glm::length(p_eye) > 2 * errors.p_eye)) return anything();

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/arithmetic/bounded.h"
+
 namespace plumbline::math {
 
 long double offset_unit(DepthFormat format, const Conventions& conventions, double largest_z) {
@@ -26,7 +28,6 @@ long double offset_unit(DepthFormat format, const Conventions& conventions, doub
 
 OffsetBounds polygon_offset(const Projected& scene, const Triangle& t, const PolygonOffset& offset) {
   if (offset == PolygonOffset{}) return {};
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (t.flat) return {0, kInfinity};
   const double scale = range_scale(t), factor = offset.factor, units = offset.units;
   const double z_ndc =  // largest; without a near and a far plane, a corner may lie beyond them

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <span>
 #include <unordered_map>
 
 #include "capture/float_depth.h"
 #include "capture/stages.h"
+#include "reference/arithmetic/bounded.h"
 #include "reference/arithmetic/color_error.h"
 #include "reference/arithmetic/draw_ranges.h"
 #include "reference/arithmetic/light.h"
@@ -216,7 +216,7 @@ void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, T
                         (t.roundings - kRoundingsUncut) * moved(t.size) * glm::length(glm::dvec2(t.w_plane)));
   if (of_w < 0.5) {
     t.reach /= 1 - of_w;
-    t.growth = grows < 0.5 ? 1 / (1 - grows) : std::numeric_limits<double>::infinity();
+    t.growth = grows < 0.5 ? 1 / (1 - grows) : kInfinity;
   } else {
     t.loose = t.flat = true;
     t.reach = scene.width + scene.height;
@@ -235,12 +235,15 @@ void set_guarded(const Projected& scene, const std::array<const Corner*, 3>& c, 
   const Polygon part = part_inside(scene, c, 2, cut);
   std::array<glm::dvec2, kMostCorners> p_window;
   glm::dvec2 farthest(0.5 * scene.width, 0.5 * scene.height);
+  double w_min = kInfinity;
   for (std::size_t i = 0; i < part.count; ++i) {
-    p_window[i] = glm::dvec2(part.v[i]) / std::max(part.v[i].z, kFloatRounding * t.size.w);
+    const double w = std::max(part.v[i].z, kFloatRounding * t.size.w);
+    w_min = std::min(w_min, w);
+    p_window[i] = glm::dvec2(part.v[i]) / w;
     farthest = glm::max(farthest, glm::abs(p_window[i]));
   }
   const std::span corners = std::span(p_window).first(part.count);
-  t.guarded = {widths(corners).pieces, {corners.begin(), corners.end()}, 2.0 * farthest};
+  t.guarded = {widths(corners).pieces, {corners.begin(), corners.end()}, 2.0 * farthest, w_min};
 }
 
 void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
@@ -260,7 +263,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   }
   t.roundings = t.cut ? kRoundingsCut : kRoundingsUncut;
   t.ahead = true;
-  t.z_min = std::numeric_limits<double>::infinity();
+  t.z_min = kInfinity;
   t.z_max = -t.z_min;
   for (const Corner* corner : c) {
     t.ahead &= corner->v.z > 0;
@@ -268,7 +271,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
     t.z_max = std::max(t.z_max, 0.5 + 0.5 * corner->z / corner->v.z);
   }
   std::array<glm::dvec2, kMostCorners> p_window;
-  t.w_min = std::numeric_limits<double>::infinity();
+  t.w_min = kInfinity;
   glm::dvec3 farthest(0, 0, 1);
   for (std::size_t i = 0; i < part.count; ++i) {
     // A near plane closer to the eye than the error of w lets w reach 0: then the triangle may be anywhere.
@@ -314,7 +317,7 @@ glm::dvec2 float_displacement(const Projected& scene, const glm::dvec4& error, g
 
 glm::dvec2 corner_displacement(const Projected& scene, const Corner& c) {
   const double w = c.v.z, of_w = kRoundingsUncut * kFloatRounding * c.size.w / w;
-  if (!(w > 0) || !(of_w < 0.5)) return glm::dvec2(std::numeric_limits<double>::infinity());
+  if (!(w > 0) || !(of_w < 0.5)) return glm::dvec2(kInfinity);
   return float_displacement(scene, kFloatRounding * kRoundingsUncut * c.size, c.v / w, w) /
          (1 - of_w);  // as set_growth() has it
 }

@@ -74,6 +74,7 @@ struct Triangle {
     double altitude = 0;              ///< as above
     std::vector<glm::dvec2> outline;  ///< as above
     glm::dvec2 extent{0};             ///< [pixels] twice their corners' largest distance from its middle
+    double w_min = 0;                 ///< of their corners
   } guarded;
   double stepped = 0;  ///< [pixels] displacement of its edges along x where x is added up from row to row in float
   double reach = 0;    ///< [pixels] largest displacement of a vertex over its visible part

@@ -1,4 +1,5 @@
 #include "reference/arithmetic/texture.h"
+#include "reference/arithmetic/bounded.h"
 
 #include <algorithm>
 #include <cmath>
@@ -242,7 +243,7 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
   out.lambda_lo = lambda_lo;
   out.lambda_hi = lambda_hi;
   std::uint64_t sloped = 0;  // a bit for each level and filter that add_slopes() has added
-  out.lo = glm::dvec4(std::numeric_limits<double>::infinity());
+  out.lo = glm::dvec4(kInfinity);
   out.hi = -out.lo;
   const auto add = [&](double lambda) {
     const glm::dvec4 texel = filtered_texel(texture, st, lambda, rules);
@@ -308,7 +309,7 @@ BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& st
   BoundedFour out{textured_color(texture.format, state, fragment.value, texel), 0};
   const bool open =
       is_open(range, place.bound) || !within_slopes(texture, range, place.bound) || !std::isfinite(fragment.bound);
-  if (open) return {out.value, std::numeric_limits<double>::infinity()};
+  if (open) return {out.value, kInfinity};
   const glm::dvec4 slack = range.slope_s * place.bound.s + range.slope_t * place.bound.t;
   const glm::dvec4 lo = range.lo - slack, hi = range.hi + slack;
   // Every environment is linear in each of Cf, Af, Cs and As: its extremes are at the ends of their intervals.

@@ -232,11 +232,11 @@ std::vector<std::vector<bool>> choices(std::span<const Hit> hits, std::size_t mo
 /// certain.
 void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, bool is_counted, int x,
                  int y, Legal& legal) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   constexpr std::size_t kMostChoices = 16;
-  legal.color_lo(x, y) = glm::vec4(-kInfinity);
-  legal.color_hi(x, y) = glm::vec4(kInfinity);
-  glm::vec4 least(kInfinity), most(-kInfinity);
+  legal.color_lo(x, y) = glm::vec4(-kUnbounded);
+  legal.color_hi(x, y) = glm::vec4(kUnbounded);
+  glm::vec4 least(kUnbounded), most(-kUnbounded);
   const auto widen = [&](std::span<const Hit> covering) {
     const std::optional<ColorInterval> color = color_of(scene, projected, covering);
     if (!color) return false;

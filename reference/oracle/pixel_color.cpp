@@ -63,6 +63,30 @@ double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corn
   return out;
 }
 
+/// Factors of fog that a fragment may have.
+struct FactorRange {
+  double least = kInfinity, most = -kInfinity;
+  void include(double factor) { least = std::min(least, factor), most = std::max(most, factor); }
+};
+
+// Corners of a cut triangle's pieces lie between the nearest and the farthest of its corners, or of where the near
+// plane cuts it, whichever planes of the sides a renderer cuts at. Where the factor is convex in the distance, one that
+// they interpolate is at most the chord's of that range, and at least that of the fragment's distance. exp2 is not
+// convex, nor is any factor about the eye's plane: these may come to any factor of the range.
+void include_factors_of_pieces(FactorRange& factors, const Fog& fog, const PixelSite& site, double distance) {
+  const auto z_eye = [&](std::uint32_t corner) { return site.scene.corners[corner].z_eye; };
+  const auto [low, high] = std::ranges::minmax(site.t.corner, {}, z_eye);
+  const bool is_about_eye = z_eye(low) < 0 && z_eye(high) > 0;
+  const double far = std::max(std::abs(z_eye(low)), std::abs(z_eye(high)));
+  double near = is_about_eye ? 0 : std::min(std::abs(z_eye(low)), std::abs(z_eye(high)));
+  if (site.scene.perspective) near = std::max(near, site.t.guarded.w_min);  // else w says nothing of distances
+  const auto factor_at = [&](double d) { return fog_factor(fog, {d, 0}, {16}).value; };
+  const double share = far > near ? std::clamp((distance - near) / (far - near), 0.0, 1.0) : 0;
+  factors.include(glm::mix(factor_at(near), factor_at(far), share));
+  if (fog.mode == Fog::Mode::exp2 || (is_about_eye && near == 0))
+    factors.include(factor_at(near)), factors.include(factor_at(far));
+}
+
 /// The colours of one draw's fragments at a site.
 class FragmentColor {
  public:
@@ -110,6 +134,8 @@ class FragmentColor {
   void round(BoundedFour& color, double half, bool has_side = true) const;
   // Fog factor at the fragment.
   Bounded fog_factor_there() const;
+  /// Factor of fog of vertices, interpolated. `of_fragment`: of a fragment at this distance from the eye [eye units].
+  Bounded factor_of_vertices(const Bounded& of_fragment, double distance) const;
 
   const Scene& scene_;
   const PixelSite& site_;
@@ -212,35 +238,31 @@ BoundedFour FragmentColor::textured(const BoundedFour& color) const {
   return bounded_textured_color(texture, *draw_.texture, color, place, rules);
 }
 
-// Factors of vertices: the mesh's or, of a cut triangle, those of its pieces, at distances within [w_min, w_max]. Where
-// the factor is convex in the distance, the pieces' lies between that of the fragment's distance and the chord of the
-// whole range; exp2 is not, and has that range of factors. A factor of linear fog that is interpolated and then clamped
-// is that of the interpolated distance; OpenGL does not say which of the two is done first.
 Bounded FragmentColor::fog_factor_there() const {
   const Fog& fog = *draw_.fog;
   const BoundedFour z_eye = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.z_eye), c.z_eye_error}; });
   Bounded out = fog_factor(fog, {z_eye.value.x, z_eye.bound}, {16});
-  if (site_.scene.conventions.fog_factor == Conventions::FogFactor::per_vertex) {
-    const BoundedFour of_vertices = attribute([&](const Corner& c) {
-      const Bounded f = fog_factor(fog, {c.z_eye, c.z_eye_error}, {16});
-      return BoundedFour{glm::dvec4(f.value), f.error};
-    });
-    double least = std::clamp(of_vertices.value.x, 0.0, 1.0), most = least;
-    const auto include = [&](double f) { least = std::min(least, f), most = std::max(most, f); };
-    if (fog.mode == Fog::Mode::linear || site_.t.cut) include(out.value);
-    if (site_.t.cut) {
-      const bool has_range = site_.scene.perspective && site_.t.w_max > site_.t.w_min;
-      const double near = has_range ? site_.t.w_min : 0, far = has_range ? site_.t.w_max : kInfinity;
-      const double of_near = fog_factor(fog, {near, 0}, {16}).value,
-                   of_far = has_range ? fog_factor(fog, {far, 0}, {16}).value : 0;
-      const double share = has_range ? std::clamp((std::abs(z_eye.value.x) - near) / (far - near), 0.0, 1.0) : 0;
-      include(glm::mix(of_near, of_far, share));
-      if (fog.mode == Fog::Mode::exp2 || !has_range) include(of_near), include(of_far);
-    }
-    out = {(least + most) / 2, (most - least) / 2 + std::max(of_vertices.bound, most > least ? out.error : 0)};
-  }
+  if (site_.scene.conventions.fog_factor == Conventions::FogFactor::per_vertex)
+    out = factor_of_vertices(out, std::abs(z_eye.value.x));
   out.error = std::isfinite(out.error) ? std::min(1.0, out.error) : 1;
   return out;
+}
+
+// Linear fog that is interpolated and then clamped has the factor of the interpolated distance; OpenGL does not say
+// which of the two is done first.
+Bounded FragmentColor::factor_of_vertices(const Bounded& of_fragment, double distance) const {
+  const Fog& fog = *draw_.fog;
+  const BoundedFour interpolated = attribute([&](const Corner& c) {
+    const Bounded f = fog_factor(fog, {c.z_eye, c.z_eye_error}, {16});
+    return BoundedFour{glm::dvec4(f.value), f.error};
+  });
+  FactorRange factors;
+  factors.include(std::clamp(interpolated.value.x, 0.0, 1.0));
+  if (fog.mode == Fog::Mode::linear || site_.t.cut) factors.include(of_fragment.value);
+  if (site_.t.cut) include_factors_of_pieces(factors, fog, site_, distance);
+  const double of_ends = factors.most > factors.least ? of_fragment.error : 0;
+  return {(factors.least + factors.most) / 2,
+          (factors.most - factors.least) / 2 + std::max(interpolated.bound, of_ends)};
 }
 
 void FragmentColor::fog(BoundedFour& color) const {

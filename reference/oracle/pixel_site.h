@@ -2,16 +2,14 @@
 #pragma once
 
 #include <array>
-#include <limits>
 
 #include <glm/glm.hpp>
 
+#include "reference/arithmetic/bounded.h"
 #include "reference/arithmetic/error_in_float.h"
 #include "reference/arithmetic/project.h"
 
 namespace plumbline::math {
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Whether a sample on an edge belongs to the triangle that lies in the direction `inward` from the edge.
 bool owns_ties(Conventions::TieRule rule, glm::dvec2 inward);

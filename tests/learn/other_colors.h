@@ -29,26 +29,29 @@ void light_with_fog_factors(const Scene& scene, const Draw& draw, const Mesh& me
     out[first + i][Varying::position].b = factor(*draw.fog, vertices[i].p_eye.z);
 }
 
-/// Stage shade, which takes the fragment's eye-space z for its fog factor, and clamps it.
-inline pipeline::Shaded shade_by_fog_factor(const pipeline::Surface& surface, bool front,
-                                            const pipeline::SurfaceAttributes<float>& attributes) {
+/// Stage shade, with factors of fog of what is interpolated in place of the fragment's eye-space z.
+template <auto factor>
+pipeline::Shaded shade_with_fog_factors(const pipeline::Surface& surface, bool front,
+                                        const pipeline::SurfaceAttributes<float>& attributes) {
   Draw clear = *surface.draw;
   clear.fog.reset();
   pipeline::Surface without = surface;
   without.draw = &clear;
   const pipeline::Color<float> color = pipeline::shade<float>(without, front, attributes);
   if (!surface.draw->fog) return {color};
-  const float f = std::clamp(attributes[Varying::position].b, 0.0f, 1.0f);
+  const float f = factor(*surface.draw->fog, attributes[Varying::position].b);
   const glm::vec3& fog = surface.draw->fog->color;
   return {{f * color.r + (1 - f) * fog.r, f * color.g + (1 - f) * fog.g, f * color.b + (1 - f) * fog.b, color.a}};
 }
+
+inline float clamped_factor(const Fog&, float interpolated) { return std::clamp(interpolated, 0.0f, 1.0f); }
 
 /// `fog_factor` per_vertex: interpolated as other attributes are. `factor`: factors of vertices.
 template <auto factor>
 std::unique_ptr<Renderer> make_fog_by_vertices() {
   pipeline::Stages stages = pipeline::production_stages();
   stages.light = light_with_fog_factors<factor>;
-  stages.shade = shade_by_fog_factor;
+  stages.shade = shade_with_fog_factors<clamped_factor>;
   return pipeline::make_pipeline(stages);
 }
 

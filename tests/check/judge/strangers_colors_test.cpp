@@ -19,9 +19,8 @@ namespace {
 using C = Conventions;
 
 // Verdict on the renderer's colours and depths, or on all of its planes.
-SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer> renderer, const C& conventions,
+SceneVerdict verdict_of(const Scene& scene, std::unique_ptr<Renderer> renderer, const C& conventions,
                         bool of_all_planes = false) {
-  const Scene scene = suite_scene(scene_name);
   const auto exact = exact::make_exact();
   const Reference references[] = {{"exact", exact.get()}};
   const Planes drawn = renderer->capture(scene, Request{}).planes;
@@ -32,10 +31,16 @@ SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer>
   const auto replayed = make_replayed_renderer(std::move(frame), scene, "test", conventions);
   return judge_single(scene, *replayed, references);
 }
-SceneVerdict verdict_of(const std::string& scene_name, std::unique_ptr<Renderer> renderer, C::FogFactor declared) {
-  C conventions;
-  conventions.fog_factor = declared;
-  return verdict_of(scene_name, std::move(renderer), conventions);
+SceneVerdict verdict_of(const std::string& scene, std::unique_ptr<Renderer> renderer, const C& conventions) {
+  return verdict_of(suite_scene(scene), std::move(renderer), conventions);
+}
+C with_factors(C::FogFactor declared) {
+  C out;
+  out.fog_factor = declared;
+  return out;
+}
+SceneVerdict verdict_of(const std::string& scene, std::unique_ptr<Renderer> renderer, C::FogFactor declared) {
+  return verdict_of(scene, std::move(renderer), with_factors(declared));
 }
 bool is_right(const SceneVerdict& verdict) {
   return std::ranges::none_of(verdict.comparisons, [](const Comparison& c) { return c.outcome == Outcome::different; });
@@ -67,6 +72,28 @@ TEST(StrangersFog, FactorsOfCutTrianglesMayBeThoseOfTheCutCorners) {
   }
 }
 
+// A floor whose corners lie at two distances, the nearer of them behind the eye: pieces that end at the near plane
+// interpolate factors from there to the far edge.
+TEST(StrangersFog, FactorsOfCutTrianglesMayBeInterpolatedFromTheNearPlane) {
+  static constexpr float kNear = 0.1f, kFar = 38.455f;
+  constexpr auto from_near = [](const Fog& fog, float z_eye) {
+    const float share = (-z_eye - kNear) / (kFar - kNear);
+    return glm::mix(pipeline::fog_factor<float>(fog, -kNear), pipeline::fog_factor<float>(fog, -kFar), share);
+  };
+  constexpr auto from_eye = [](const Fog& fog, float z_eye) {
+    return glm::mix(1.0f, pipeline::fog_factor<float>(fog, -kFar), -z_eye / kFar);
+  };
+  Scene scene = suite_scene("texture/floor_in_fog");
+  scene.camera.eye = {0, 0.7, 1}, scene.camera.center = {0, -0.15, -1.1};
+  const auto outcome = [&](decltype(pipeline::Stages::shade) shade) {
+    pipeline::Stages stages = pipeline::production_stages();
+    stages.shade = shade;
+    return is_right(verdict_of(scene, pipeline::make_pipeline(stages), with_factors(C::FogFactor::per_vertex)));
+  };
+  EXPECT_TRUE(outcome(test::shade_with_fog_factors<from_near>));
+  EXPECT_FALSE(outcome(test::shade_with_fog_factors<from_eye>));
+}
+
 TEST(StrangersFog, LinearFactorsMayBeClampedBeforeOrAfterTheyAreInterpolated) {
   using enum C::FogFactor;
   EXPECT_TRUE(is_right(verdict_of("fog/linear", test::make_fog_by_vertices<test::unclamped_fog_factor>(), per_vertex)));
@@ -88,11 +115,24 @@ TEST(StrangersColors, MayBeCodesBeforeTheyAreMergedWhereThatIsDeclared) {
     EXPECT_FALSE(is_right(verdict_of(scene, by_codes(), in_float))) << scene;
 }
 
+// Alphas of codes, compared as floats: bands where a code is equal to the reference are a code wide.
+TEST(StrangersColors, InCodesHaveAlphasInCodesWhateverTheyAreComparedAs) {
+  C conventions;
+  conventions.alpha_test = C::AlphaTest::in_float;
+  const auto outcome = [&] {
+    return is_right(verdict_of("alpha_test/bands", pipeline::make_pipeline(test::stages_in_codes()), conventions));
+  };
+  EXPECT_FALSE(outcome());
+  conventions.fragment_colors = C::FragmentColors::in_codes;
+  EXPECT_TRUE(outcome());
+}
+
 TEST(StrangersColors, ShadedPlanesMayBeCodesToo) {
   C in_float, in_codes;
   in_codes.fragment_colors = C::FragmentColors::in_codes;
   const auto verdict = [](const C& conventions) {
-    return verdict_of("interpolation/ramps", pipeline::make_pipeline(test::stages_in_codes()), conventions, true);
+    return verdict_of(suite_scene("interpolation/ramps"), pipeline::make_pipeline(test::stages_in_codes()), conventions,
+                      true);
   };
   const auto outcome = [&](const C& conventions) {
     for (const Comparison& c : verdict(conventions).comparisons) {
@@ -139,7 +179,7 @@ TEST(StrangersColors, InCodesAreOffToTheSideOfTheirRounding) {
   using enum C::Rounding;
   EXPECT_FALSE(outcome(shade_off<21>, nearest));
   EXPECT_FALSE(outcome(shade_off<-21>, nearest));
-  EXPECT_FALSE(outcome(shade_off<21>, down));
+  EXPECT_FALSE(outcome(shade_off<5>, down));
   EXPECT_TRUE(outcome(shade_off<-10>, down));
   EXPECT_FALSE(outcome(shade_off<-40>, down));
   EXPECT_FALSE(outcome(shade_off<-21>, up));

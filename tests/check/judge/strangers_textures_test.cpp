@@ -74,7 +74,7 @@ TEST(StrangersTextures, WeightsHaveTheDeclaredBits) {
   C declared;
   declared.texture_bits = 6;
   const Scene scene = suite_scene("texture/board_linear");
-  const Capture candidate = drawn_by(scene, test::weights_of_6_bits);
+  const Capture candidate = drawn_by(scene, test::weights_of_bits<>);
   expect_right_if_declared(scene, candidate, declared);
   declared.texture_bits = 9;
   EXPECT_EQ(row_of_stage(scene, candidate, Stage::texture, declared).outcome, Outcome::different);
