@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace {
 using C = Conventions;
 
 constexpr int kTexturedSize = 64;
+constexpr int kMostWeightBits = 12;  // more are not told from float
 
 // A frame filled by a textured rectangle; s and t from `least` to `most`.
 Scene textured_frame(const std::string& name, Texture texture, float most, float least = 0) {
@@ -64,27 +66,39 @@ Plane<glm::vec4> middle_of(Prober& prober, const std::string& name, Texture text
 // Texels from the first one's centre, of `size` in a row, at a pixel of middle_of().
 double texels_at(double pixel, int size) { return (size - 1) * static_cast<double>(kMiddle) * pixel / kTexturedSize; }
 
-// Errors of the weights between a black texel and a white one, at each column.
+// Errors of the weights between a black texel and a white one, at each column, those of colours in codes included.
 struct WeightErrors {
   double least = std::numeric_limits<double>::infinity(), most = -least, mean = 0;
+  std::set<long> codes;  // that are drawn
 };
 WeightErrors weight_errors(Prober& prober) {
   const Plane<glm::vec4> color = middle_of(prober, "texture_ramp", texture_of(2, [](int x, int) { return 255 * x; }));
   WeightErrors out;
   for (int x = 0; x < kTexturedSize; ++x) {
     if (x == kTexturedSize / 2) continue;  // on the diagonal
-    const double share = texels_at(x + prober.learned.conventions.sample.x, 2),
-                 error = static_cast<double>(color(x, kTexturedSize / 2).r) - share;
+    const auto drawn = static_cast<double>(color(x, kTexturedSize / 2).r);
+    const double error = drawn - texels_at(x + prober.learned.conventions.sample.x, 2);
+    out.codes.insert(std::lround(255 * drawn));
     out.least = std::min(out.least, error), out.most = std::max(out.most, error),
     out.mean += error / (kTexturedSize - 1);
   }
   return out;
 }
 
-// True: the errors are of weights rounded to steps (up, down or nearest) and of colours in codes, not of another curve
-// or of a displaced sample.
-bool are_of_rounding(const WeightErrors& errors, double step) {
-  constexpr double kCode = 1.0 / 255;
+constexpr double kCode = 1.0 / 255;
+
+// Fraction bits of a step that the weights' largest error does not exceed, beyond the colours' rounding.
+int bits_of(const WeightErrors& errors, C::Rounding of_colors) {
+  const double below = of_colors == C::Rounding::nearest ? kCode / 2 : of_colors == C::Rounding::down ? kCode : 0;
+  const double largest = std::max(-errors.least - below, errors.most - (kCode - below));
+  return largest > 0 ? std::max(static_cast<int>(std::floor(-std::log2(largest))), 0) : kMostWeightBits;
+}
+
+// True: the errors are of weights rounded to steps of so many bits (up, down or nearest), not of another curve or of a
+// displaced sample. Up to 5 bits, steps are as wide as two columns or more, which then have one code.
+bool are_of_rounding(const WeightErrors& errors, int bits) {
+  const double step = std::ldexp(1.0, -bits);
+  if (bits <= 5 && errors.codes.size() > (std::size_t{1} << bits) + 1) return false;
   return errors.most - errors.least <= 2 * step + 2 * kCode && std::abs(errors.mean) <= step / 2 + kCode;
 }
 
@@ -169,15 +183,17 @@ void learn_weights(Prober& prober) {
   if (const double off = are_float ? 0 : unfiltered_off(); off > rounding + kOtherRounding)
     return prober.fits_none(
         words, fmt::format("{}; texels that are not filtered, {:.2f}: they are kept in fewer bits", evidence, off));
-  const int bits = are_float ? C::kFloat : std::min(static_cast<int>(std::floor(-std::log2(step))), 12);
-  if (!are_float && bits < 4) return prober.fits_none(words, evidence);
-  // Errors show their form where a step is two codes or more.
-  if (constexpr int kMostCoarse = 7; !are_float && bits <= kMostCoarse) {
+  int bits = C::kFloat;
+  if (!are_float) {
     const WeightErrors errors = weight_errors(prober);
-    if (!are_of_rounding(errors, std::ldexp(1.0, -bits)))
+    bits =
+        std::min({static_cast<int>(std::floor(-std::log2(step))), bits_of(errors, c.color_rounding), kMostWeightBits});
+    // Errors show their form where a step is two codes or more.
+    if (constexpr int kMostCoarse = 7; bits <= kMostCoarse && !are_of_rounding(errors, bits))
       return prober.fits_none(
           words, fmt::format("{}; weights are {:+.3f} to {:+.3f} off, {:+.3f} in the mean: no rounding", evidence,
                              errors.least, errors.most, errors.mean));
+    if (bits < 4) return prober.fits_none(words, evidence);
   }
   prober.learned.conventions.texture_bits = bits;
   prober.found(words, bits_text(bits), evidence);

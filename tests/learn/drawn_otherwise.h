@@ -44,11 +44,16 @@ inline FilteredTexel<float> half_way_up(const TextureSetup& t, const TexCoords<f
   return out;
 }
 
-/// `texture_bits` 6, of the base level.
-inline FilteredTexel<float> weights_of_6_bits(const TextureSetup& t, const TexCoords<float>& at,
-                                              const Gradients<float>& g) {
+inline double to_nearest(double v) { return std::nearbyint(v); }
+inline double towards_0(double v) { return std::trunc(v); }
+
+/// `texture_bits` 6, or those given, of the base level.
+template <int bits = 6, double (*round)(double) = to_nearest>
+FilteredTexel<float> weights_of_bits(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   const auto rounded = [](float coordinate, double size) {
-    return static_cast<float>((std::nearbyint(static_cast<double>(coordinate) * size * 64)) / 64 / size);
+    constexpr double kSteps = 1 << bits;
+    const double texels = round((static_cast<double>(coordinate) * size - 0.5) * kSteps) / kSteps;
+    return static_cast<float>((texels + 0.5) / size);
   };
   const FilteredTexel<float> out = pipeline::texture<float>(t, at, g);
   if (out.lod > static_cast<float>(t.c) && mipmaps(t.sampler.min)) return out;

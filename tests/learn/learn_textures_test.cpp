@@ -30,11 +30,18 @@ TEST(LearnTextures, LevelsHalfWayAreFound) {
 }
 
 TEST(LearnTextures, WeightsOfFewBitsAreFound) {
-  C found = learned_by(test::weights_of_6_bits);
+  C found = learned_by(test::weights_of_bits<>);
   EXPECT_GE(found.texture_bits, 6);
   EXPECT_LE(found.texture_bits, 8) << "rounded to nearest, a weight is half a step off, and no mean is rounded";
   found.texture_bits = C::kFloat;
   EXPECT_EQ(found, ours());
+}
+
+// A weight is off by up to a whole step.
+TEST(LearnTextures, TruncatedWeightsAreOfTheirBits) {
+  EXPECT_EQ(learned_by(test::weights_of_bits<5, test::towards_0>).texture_bits, 5);
+  EXPECT_EQ(learned_by(test::weights_of_bits<6, test::towards_0>).texture_bits, 6);
+  EXPECT_EQ(learned_by(test::weights_of_bits<8, test::towards_0>).texture_bits, 8);
 }
 
 // Filters whose errors are those of few bits in size, and not in form.

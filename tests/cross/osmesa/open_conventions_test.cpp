@@ -94,7 +94,7 @@ TEST(OpenConventions, WeightsMayHaveFewBits) {
   C declared;
   for (const int bits : {6, 8}) {  // 8 is what plumb learn finds (learn_textures_test.cpp)
     declared.texture_bits = bits;
-    expect_right_if_declared("texture/board_linear", {test::weights_of_6_bits}, declared);
+    expect_right_if_declared("texture/board_linear", {test::weights_of_bits<>}, declared);
   }
 }
 
