@@ -42,6 +42,9 @@ TEST_F(Reports, ATableRowSaysAll) {
     EXPECT_TRUE(contains(rows, part)) << part << " in " << rows;
   }
   EXPECT_TRUE(contains(table_rows(verdict_of({compared(Outcome::ambiguous_only)})), " 5 "));
+  EXPECT_TRUE(contains(table_rows(verdict_of({compared(Outcome::different, 102.5, 0x1p-126)})),
+                       "102.5 u (tolerance underflow)"));
+  EXPECT_TRUE(contains(table_rows(verdict_of({compared(Outcome::different, 1, 0)})), "1 u (tolerance 0)"));
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1);
   for (const char* part : {"scene", "reference", "stage", "outcome", "pixels", "differing", "ambiguous"}) {
     EXPECT_TRUE(contains(table_head(), part)) << part;

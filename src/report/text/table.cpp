@@ -20,10 +20,15 @@ namespace {
 
 constexpr const char* kRow = "{:<28} {:<24} {:<10} {:<14} {:>9} {:>9} {:>9}  {:<24} {}\n";
 
+// Tolerances of rows whose values are to be equal but for underflow come to less, in any unit.
+constexpr double kOfUnderflow = 1e-30;
+
 std::string largest(const Comparison& c) {
   const check::Worst* worst = check::shown(c);
   if (worst == nullptr) return "0";
-  return fmt::format("{:.4g} {} (tolerance {:.4g})", worst->difference, c.measurement.unit, worst->tolerance);
+  const bool is_of_underflow = worst->tolerance > 0 && worst->tolerance < kOfUnderflow;
+  const std::string tolerance = is_of_underflow ? "underflow" : fmt::format("{:.4g}", worst->tolerance);
+  return fmt::format("{:.4g} {} (tolerance {})", worst->difference, c.measurement.unit, tolerance);
 }
 
 // A row is a line; failure_lines() has all of it.
