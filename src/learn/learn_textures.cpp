@@ -135,36 +135,48 @@ double texels_off(Prober& prober, const std::string& name, int texels, auto code
   return most;
 }
 
+// Texture of 4 x 4 unlike codes.
+int unlike_code(int x, int y) { return (x * 83 + y * 151 + 11) % 256; }
+
+// Errors of means of its texels [codes].
+struct MeanErrors {
+  double largest = 0, highest = -std::numeric_limits<double>::infinity();
+  double step = 0;  // of the coarsest weights that explain each mean
+};
+MeanErrors mean_errors(Prober& prober) {
+  const Plane<glm::vec4> color = middle_of(prober, "texture_weights", texture_of(4, unlike_code));
+  const glm::dvec2 sample = prober.learned.conventions.sample;
+  MeanErrors out;
+  for (int y = 0; y < kTexturedSize; ++y) {
+    for (int x = 0; x < kTexturedSize; ++x) {
+      if (x == y) continue;  // on the diagonal, which may be nobody's
+      const glm::dvec2 at(texels_at(x + sample.x, 4), texels_at(y + sample.y, 4)), low = glm::floor(at);
+      const glm::dvec2 share = at - low;
+      const auto grey = [&](int dx, int dy) {
+        const auto inside = [](double v) { return std::clamp(static_cast<int>(v), 0, 3); };
+        return static_cast<double>(unlike_code(inside(low.x + dx), inside(low.y + dy)));
+      };
+      const double exact =
+          glm::mix(glm::mix(grey(0, 0), grey(1, 0), share.x), glm::mix(grey(0, 1), grey(1, 1), share.x), share.y);
+      const double off = 255 * static_cast<double>(color(x, y).r) - exact;
+      out.largest = farther(out.largest, off);
+      out.highest = std::max(out.highest, off);
+      // Each direction's weight is off by at most a step; three means are rounded to half a step.
+      const double along_x = std::max(std::abs(grey(1, 0) - grey(0, 0)), std::abs(grey(1, 1) - grey(0, 1))),
+                   along_y = std::max(std::abs(grey(0, 1) - grey(0, 0)), std::abs(grey(1, 1) - grey(1, 0)));
+      out.step = std::max(out.step, (std::abs(off) - 0.5) / (along_x + along_y + 1.5 * 255));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 void learn_weights(Prober& prober) {
   const ConventionWords words = words_of("texture_bits");
   if (!prober.are_linear) return prober.open(words, kNotLinear);
-  const auto code = [](int x, int y) { return (x * 83 + y * 151 + 11) % 256; };
-  const Plane<glm::vec4> color = middle_of(prober, "texture_weights", texture_of(4, code));
-  double most = 0, highest = -std::numeric_limits<double>::infinity();
-  double step = 0;  // of the coarsest weights that explain each texel
+  const auto [most, highest, step] = mean_errors(prober);
   const C& c = prober.learned.conventions;
-  for (int y = 0; y < kTexturedSize; ++y) {
-    for (int x = 0; x < kTexturedSize; ++x) {
-      if (x == y) continue;  // on the diagonal, which may be nobody's
-      const glm::dvec2 at(texels_at(x + c.sample.x, 4), texels_at(y + c.sample.y, 4)), low = glm::floor(at);
-      const glm::dvec2 share = at - low;
-      const auto grey = [&](int dx, int dy) {
-        const auto inside = [](double v) { return std::clamp(static_cast<int>(v), 0, 3); };
-        return static_cast<double>(code(inside(low.x + dx), inside(low.y + dy)));
-      };
-      const double exact =
-          glm::mix(glm::mix(grey(0, 0), grey(1, 0), share.x), glm::mix(grey(0, 1), grey(1, 1), share.x), share.y);
-      const double off = 255 * static_cast<double>(color(x, y).r) - exact;
-      most = farther(most, off);
-      highest = std::max(highest, off);
-      // Each direction's weight is off by at most a step; three means are rounded to half a step.
-      const double along_x = std::max(std::abs(grey(1, 0) - grey(0, 0)), std::abs(grey(1, 1) - grey(0, 1))),
-                   along_y = std::max(std::abs(grey(0, 1) - grey(0, 0)), std::abs(grey(1, 1) - grey(1, 0)));
-      step = std::max(step, (std::abs(off) - 0.5) / (along_x + along_y + 1.5 * 255));
-    }
-  }
   const std::string evidence =
       fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * (kTexturedSize - 1), most);
   if (!std::isfinite(most)) return prober.fits_none(words, evidence);
@@ -175,7 +187,7 @@ void learn_weights(Prober& prober) {
   constexpr double kOtherRounding = 1;  // code by which another rounding of colours may differ
   const auto unfiltered_off = [&] {
     try {
-      return texels_off(prober, "texels", 4, code);
+      return texels_off(prober, "texels", 4, unlike_code);
     } catch (const Unsupported&) {
       return 0.0;  // no nearest filter: not seen
     }
