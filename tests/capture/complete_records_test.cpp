@@ -57,7 +57,7 @@ bool is_large(const Scene& scene) {
   return std::ranges::any_of(scene.meshes, [](const Mesh& m) { return m.triangles.size() > 100'000; });
 }
 
-TEST(CompleteRecords, leave_a_capture_in_order_as_it_is) {
+TEST(CompleteRecords, LeaveACaptureInOrderAsItIs) {
   std::size_t scenes = 0;
   for (const auto& file : suite_files()) {
     const Scene scene = load_scene(file, {});
@@ -77,7 +77,7 @@ TEST(CompleteRecords, leave_a_capture_in_order_as_it_is) {
   EXPECT_GT(scenes, 200u);
 }
 
-TEST(CompleteRecords, put_shuffled_records_in_order) {
+TEST(CompleteRecords, PutShuffledRecordsInOrder) {
   std::mt19937 random(7);
   for (const char* name :
        {"coverage/shared_edges", "texture/floor_modulated", "light/all_at_once", "clip/six_planes"}) {
@@ -92,7 +92,7 @@ TEST(CompleteRecords, put_shuffled_records_in_order) {
 }
 
 // Every scene whose polygons are filled.
-TEST(CompleteRecords, fill_what_follows_from_others) {
+TEST(CompleteRecords, FillWhatFollowsFromOthers) {
   std::size_t scenes = 0;
   for (const auto& file : suite_files()) {
     const Scene scene = load_scene(file, {});
@@ -117,7 +117,7 @@ TEST(CompleteRecords, fill_what_follows_from_others) {
 }
 
 // In double, of matrices in float: as near as the pipeline's own normals.
-TEST(CompleteRecords, fill_normals_by_the_matrices) {
+TEST(CompleteRecords, FillNormalsByTheMatrices) {
   for (const char* name : {"light/normals_uneven", "light/normals_grown", "light/sphere_gouraud"}) {
     const Scene scene = suite_scene(name);
     const Capture was = whole_capture(scene);
@@ -131,7 +131,7 @@ TEST(CompleteRecords, fill_normals_by_the_matrices) {
   }
 }
 
-TEST(CompleteRecords, take_a_depth_in_float_for_the_nearest_code) {
+TEST(CompleteRecords, TakeADepthInFloatForTheNearestCode) {
   const Scene scene = suite_scene("coverage/shared_edges");
   const Capture was = whole_capture(scene);
   Capture capture = was;
@@ -145,7 +145,7 @@ TEST(CompleteRecords, take_a_depth_in_float_for_the_nearest_code) {
 }
 
 // A renderer's buffer may hold doubles: what it declares is as fine.
-TEST(CompleteRecords, take_depths_for_those_of_the_declared_format) {
+TEST(CompleteRecords, TakeDepthsForThoseOfTheDeclaredFormat) {
   const Scene scene = suite_scene("coverage/shared_edges");
   Conventions conventions;
   const auto stored = [&](Conventions::Depth format, double z, bool in_float) {
@@ -175,7 +175,7 @@ void expect_refused(const Scene& scene, Capture capture, const std::string& says
   }
 }
 
-TEST(CompleteRecords, refuse_what_nothing_follows_from) {
+TEST(CompleteRecords, RefuseWhatNothingFollowsFrom) {
   const Scene scene = suite_scene("coverage/shared_edges");
   for (const double odd : {std::nan(""), HUGE_VAL, -1e300, 0x1p23}) {
     Capture capture = whole_capture(scene);
@@ -217,7 +217,7 @@ TEST(CompleteRecords, refuse_what_nothing_follows_from) {
 }
 
 // A vertex of the mesh may be a few roundings off, where clip positions are kept in another form.
-TEST(CompleteRecords, tell_cuts_from_vertices_within_four_roundings) {
+TEST(CompleteRecords, TellCutsFromVerticesWithinFourRoundings) {
   const Scene scene = suite_scene("coverage/shared_edges");
   const auto cut = [&](double roundings) {
     Capture capture = whole_capture(scene);
@@ -233,7 +233,7 @@ TEST(CompleteRecords, tell_cuts_from_vertices_within_four_roundings) {
   EXPECT_TRUE(cut(4.1));
 }
 
-TEST(CompleteRecords, snap_to_the_grid_of_the_conventions) {
+TEST(CompleteRecords, SnapToTheGridOfTheConventions) {
   const Scene scene = suite_scene("cull/both_windings");
   const auto derived = [&](int bits, Conventions::Rounding rounding) {
     Capture capture = whole_capture(scene);
@@ -254,7 +254,7 @@ TEST(CompleteRecords, snap_to_the_grid_of_the_conventions) {
   EXPECT_EQ(derived(12, down), glm::ivec2(101, -101));
 }
 
-TEST(CompleteRecords, clear_the_varyings_that_a_draw_does_not_carry) {
+TEST(CompleteRecords, ClearTheVaryingsThatADrawDoesNotCarry) {
   const Scene scene = suite_scene("fog/per_draw");
   const Capture was = whole_capture(scene);
   Capture capture = was;
@@ -271,7 +271,7 @@ TEST(CompleteRecords, clear_the_varyings_that_a_draw_does_not_carry) {
 }
 
 // A step of 1/256 pixel above the base, or below it; snapped to half a pixel, it lies on the base.
-TEST(CompleteRecords, face_what_is_not_culled) {
+TEST(CompleteRecords, FaceWhatIsNotCulled) {
   Scene scene = suite_scene("coverage/shared_edges");
   const Capture whole = whole_capture(scene);
   const auto front = [&](double steps, int bits, Cull cull) {
@@ -297,7 +297,7 @@ TEST(CompleteRecords, face_what_is_not_culled) {
   EXPECT_FALSE(front(2, 1, Cull::front));
 }
 
-TEST(CompleteRecords, refuse_to_guess_the_facing_of_outlines) {
+TEST(CompleteRecords, RefuseToGuessTheFacingOfOutlines) {
   const Scene scene = suite_scene("polygon_mode/wireframe");
   for (const char* column : {"window.front", "window.corners"}) {
     Capture capture = whole_capture(scene);

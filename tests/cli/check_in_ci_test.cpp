@@ -18,7 +18,7 @@ class CheckInCi : public Cli {
   }
 };
 
-TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
+TEST_F(CheckInCi, LeavesJunitMarkdownRowsAndAPageOfEachFailure) {
   ::unsetenv("CTEST_INTERACTIVE_DEBUG_MODE");
   const std::string outputs = " --junit " + at("j.xml") + " --markdown " + at("m.md") + " --rows " + at("rows") +
                               " --failures " + at("failures") + " --json " + at("c.json");
@@ -45,7 +45,7 @@ TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
   EXPECT_NE(test::text_of(at("j.xml")).find("failures=\"0\""), std::string::npos);
 }
 
-TEST_F(CheckInCi, folders_that_cannot_be_written_end_the_run_before_it_begins) {
+TEST_F(CheckInCi, FoldersThatCannotBeWrittenEndTheRunBeforeItBegins) {
   test::write_text(at("file"), "");
   for (const char* option : {" --rows ", " --failures "}) {
     const Outcome run = plumb("check " + kSharedEdges + " --against exact" + option + at("file/rows"));
@@ -55,7 +55,7 @@ TEST_F(CheckInCi, folders_that_cannot_be_written_end_the_run_before_it_begins) {
   }
 }
 
-TEST_F(CheckInCi, shards_come_to_the_whole_run) {
+TEST_F(CheckInCi, ShardsComeToTheWholeRun) {
   const std::string scenes = kScenes + "cull " + kScenes + "merge";  // five scenes
   std::string shards;
   for (const char* i : {"1", "2"}) {
@@ -86,7 +86,7 @@ TEST_F(CheckInCi, shards_come_to_the_whole_run) {
   EXPECT_EQ(plumb("report merge " + at("1.json") + " -o " + at("1.json")).code, 2) << "it is read by this run";
 }
 
-TEST_F(CheckInCi, what_breaks_is_named_by_the_diff) {
+TEST_F(CheckInCi, WhatBreaksIsNamedByTheDiff) {
   EXPECT_EQ(plumb("check " + kSharedEdges + " --against exact --json " + at("old.json")).code, 0);
   EXPECT_EQ(plumb("check " + kSharedEdges + kFault + " --json " + at("new.json")).code, 1);
   const Outcome diff = plumb("report diff " + at("old.json") + " " + at("new.json") + " --json " + at("d.json") +
@@ -98,7 +98,7 @@ TEST_F(CheckInCi, what_breaks_is_named_by_the_diff) {
   EXPECT_EQ(plumb("report diff " + at("new.json") + " " + at("old.json")).code, 0) << "fixed";
 }
 
-TEST_F(CheckInCi, expectations_excuse_what_is_known_until_it_expires_or_passes) {
+TEST_F(CheckInCi, ExpectationsExcuseWhatIsKnownUntilItExpiresOrPasses) {
   const std::string expect = known("coverage/shared_edges", "2026-05-05");
   Outcome run = plumb("check " + kSharedEdges + kFault + expect);
   EXPECT_EQ(run.code, 0) << run.text;

@@ -8,7 +8,7 @@
 namespace plumbline {
 namespace {
 
-TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
+TEST_F(Cli, HelpAndVersionEnd0AndBadUsage2) {
   EXPECT_EQ(plumb("--help").code, 0);
   EXPECT_EQ(plumb("--version").code, 0);
   EXPECT_EQ(plumb("").code, 2);
@@ -26,7 +26,7 @@ TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
   }
 }
 
-TEST_F(Cli, a_misspelt_command_or_option_says_what_was_meant) {
+TEST_F(Cli, AMisspeltCommandOrOptionSaysWhatWasMeant) {
   const auto says = [](const std::string& arguments, const std::string& text) {
     const Outcome run = plumb(arguments);
     EXPECT_EQ(run.code, 2) << run.text;
@@ -43,7 +43,7 @@ TEST_F(Cli, a_misspelt_command_or_option_says_what_was_meant) {
   EXPECT_FALSE(plumb("xyzzy").says("did you mean"));
 }
 
-TEST_F(Cli, check_prints_a_line_for_each_scene_that_holds_and_all_rows_of_the_others) {
+TEST_F(Cli, CheckPrintsALineForEachSceneThatHoldsAndAllRowsOfTheOthers) {
   const std::string scenes =
       fmt::format("check {0}cull/both_windings.json {0}cull/set_and_unset.json --against exact ", kScenes);
   const Outcome hold = plumb(scenes);
@@ -61,7 +61,7 @@ TEST_F(Cli, check_prints_a_line_for_each_scene_that_holds_and_all_rows_of_the_ot
   EXPECT_TRUE(single.says("cull/both_windings           exact, per stage") && !single.says("holds: ")) << single.text;
 }
 
-TEST_F(Cli, a_closed_standard_output_is_an_error) {
+TEST_F(Cli, AClosedStandardOutputIsAnError) {
   for (const std::string& arguments : {"check " + kSharedEdges, std::string("list"), "diagnose " + kSharedEdges}) {
     for (const char* output : {">&-", ">/dev/full"}) {
       const Outcome run = shell(fmt::format("{} {} 2>&1 {}", PLUMBLINE_PLUMB, arguments, output));
@@ -71,20 +71,20 @@ TEST_F(Cli, a_closed_standard_output_is_an_error) {
   }
 }
 
-TEST_F(Cli, a_message_that_nobody_hears_is_no_crash) {
+TEST_F(Cli, AMessageThatNobodyHearsIsNoCrash) {
   EXPECT_EQ(shell(PLUMBLINE_PLUMB " check /nowhere 2>&-").code, 2);
   EXPECT_EQ(shell(PLUMBLINE_PLUMB " xyzzy 2>&-").code, 2);
   EXPECT_EQ(shell(PLUMBLINE_PLUMB " list stages >&- 2>&-").code, 2);
 }
 
-TEST_F(Cli, a_limit_of_file_sizes_is_an_error_with_a_message) {
+TEST_F(Cli, ALimitOfFileSizesIsAnErrorWithAMessage) {
   const Outcome run = shell("ulimit -f 1; " PLUMBLINE_PLUMB " render " + kSharedEdges + " -o " + at("x.exr"));
   EXPECT_EQ(run.code, 2);
   EXPECT_TRUE(run.says("x.exr: cannot be written: File too large")) << run.text;
   EXPECT_EQ(entries(), std::set<std::string>{});
 }
 
-TEST_F(Cli, check_holds_and_prints_a_row_for_each_reference_and_stage) {
+TEST_F(Cli, CheckHoldsAndPrintsARowForEachReferenceAndStage) {
   const Outcome run = plumb("check " + kScenes + "cull/both_windings.json --against exact");
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_NE(run.text.find("exact, per stage"), std::string::npos);
@@ -99,7 +99,7 @@ TEST_F(Cli, check_holds_and_prints_a_row_for_each_reference_and_stage) {
   EXPECT_EQ(lines.text.find("\nok:"), std::string::npos) << "something is unsupported: no bare ok";
 }
 
-TEST_F(Cli, a_fault_ends_1_and_names_scene_reference_stage_and_the_command_that_repeats_it) {
+TEST_F(Cli, AFaultEnds1AndNamesSceneStageAndTheCommandThatRepeatsIt) {
   const std::string scene = kScenes + "clip/each_plane.json";
   const Outcome run = plumb("check " + scene + " --against exact --fault clip.no_near_plane");
   EXPECT_EQ(run.code, 1) << run.text;
@@ -109,7 +109,7 @@ TEST_F(Cli, a_fault_ends_1_and_names_scene_reference_stage_and_the_command_that_
   EXPECT_NE(run.text.find("repeat: " PLUMBLINE_PLUMB " " + repeat), std::string::npos) << run.text;
 }
 
-TEST_F(Cli, the_command_that_repeats_works_as_it_stands) {
+TEST_F(Cli, TheCommandThatRepeatsWorksAsItStands) {
   fs::create_directories(folder_ / "a b");
   fs::create_symlink(PLUMBLINE_PLUMB, folder_ / "a b/it's plumb");
   const std::string scene = kScenes + "coverage/shared_edges.json";
@@ -126,7 +126,7 @@ TEST_F(Cli, the_command_that_repeats_works_as_it_stands) {
   EXPECT_TRUE(again.says("repeat: " + repeat)) << again.text;
 }
 
-TEST_F(Cli, the_command_that_repeats_takes_no_file_for_an_option) {
+TEST_F(Cli, TheCommandThatRepeatsTakesNoFileForAnOption) {
   fs::copy(kScenes + "coverage/shared_edges.json", folder_ / "-a.json");
   const Outcome run =
       shell("cd '" + folder_.string() +
@@ -135,7 +135,7 @@ TEST_F(Cli, the_command_that_repeats_takes_no_file_for_an_option) {
   EXPECT_TRUE(run.says("repeat: " PLUMBLINE_PLUMB " check ./-a.json --against exact")) << run.text;
 }
 
-TEST_F(Cli, a_note_tells_once_what_of_a_mesh_file_is_left_out) {
+TEST_F(Cli, ANoteTellsOnceWhatOfAMeshFileIsLeftOut) {
   test::write_text(folder_ / "mesh.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
   const fs::path scene = folder_ / "scene.json";
   test::write_text(
@@ -149,7 +149,7 @@ TEST_F(Cli, a_note_tells_once_what_of_a_mesh_file_is_left_out) {
   EXPECT_EQ(run.text.find("note:"), run.text.rfind("note:")) << run.text;
 }
 
-TEST_F(Cli, factors_are_numbers) {
+TEST_F(Cli, FactorsAreNumbers) {
   for (const char* option : {"--moved", "--slower"}) {
     for (const char* value : {"nan", "0.5", "x", "inf"}) {
       const Outcome run = plumb("report diff a.json b.json " + std::string(option) + " " + value);
@@ -159,7 +159,7 @@ TEST_F(Cli, factors_are_numbers) {
   }
 }
 
-TEST_F(Cli, a_reference_asked_for_twice_is_asked_once) {
+TEST_F(Cli, AReferenceAskedForTwiceIsAskedOnce) {
   const std::string scene = kScenes + "cull/both_windings.json";
   const auto rows = [](std::string text) { return text.substr(0, text.rfind("comparisons in ")); };  // without times
   const Outcome once = plumb("check " + scene + " --against exact");
@@ -167,7 +167,7 @@ TEST_F(Cli, a_reference_asked_for_twice_is_asked_once) {
   EXPECT_EQ(rows(plumb("check " + scene + " --against exact --against exact").text), rows(once.text));
 }
 
-TEST_F(Cli, an_unknown_fault_or_renderer_ends_2) {
+TEST_F(Cli, AnUnknownFaultOrRendererEnds2) {
   const Outcome fault = plumb("check " + kScenes + "cull --fault vertex.nonsense");
   EXPECT_EQ(fault.code, 2);
   EXPECT_NE(fault.text.find("vertex.nonsense"), std::string::npos);
@@ -177,7 +177,7 @@ TEST_F(Cli, an_unknown_fault_or_renderer_ends_2) {
   EXPECT_FALSE(fs::exists(at("x.png")));
 }
 
-TEST_F(Cli, a_bad_scene_ends_2_and_names_file_and_place) {
+TEST_F(Cli, ABadSceneEnds2AndNamesFileAndPlace) {
   const std::string file = scene_file(R"({"description": "x", "frame": {"width": 0}, "draws": []})");
   for (const std::string& command : {"check " + file, "render " + file + " -o " + at("x.png")}) {
     const Outcome run = plumb(command);
@@ -190,7 +190,7 @@ TEST_F(Cli, a_bad_scene_ends_2_and_names_file_and_place) {
   EXPECT_EQ(plumb("check " + folder_.string() + "/empty").code, 2);
 }
 
-TEST_F(Cli, a_frame_over_the_budget_of_memory_ends_2_and_names_file_and_place) {
+TEST_F(Cli, AFrameOverTheBudgetOfMemoryEnds2AndNamesFileAndPlace) {
   const std::string file = scene_file(
       R"({"description": "x", "frame": {"width": 16384, "height": 16384}, "draws": [{"mesh": {"cube": {}}}]})");
   for (const std::string& command : {"check " + file, "render " + file + " -o " + at("x.png")}) {
@@ -201,7 +201,7 @@ TEST_F(Cli, a_frame_over_the_budget_of_memory_ends_2_and_names_file_and_place) {
   EXPECT_FALSE(fs::exists(at("x.png")));
 }
 
-TEST_F(Cli, a_bad_scene_among_good_ones_leaves_no_report_half_written) {
+TEST_F(Cli, ABadSceneAmongGoodOnesLeavesNoReportHalfWritten) {
   fs::copy(kScenes + "cull/both_windings.json", folder_ / "a.json");
   scene_file("{");
   const Outcome run = plumb("check " + folder_.string() + " --against exact --json " + at("out.json"));
@@ -209,7 +209,7 @@ TEST_F(Cli, a_bad_scene_among_good_ones_leaves_no_report_half_written) {
   EXPECT_FALSE(fs::exists(at("out.json")));
 }
 
-TEST_F(Cli, render_writes_pictures_and_depth) {
+TEST_F(Cli, RenderWritesPicturesAndDepth) {
   const std::string scene = kScenes + "cull/both_windings.json";
   const Outcome run = plumb("render " + scene + " -o " + at("c.png") + " --depth " + at("d.exr"));
   EXPECT_EQ(run.code, 0) << run.text;
@@ -232,7 +232,7 @@ TEST_F(Cli, TheDefinitionDrawsThePaintersPicture) {
   }
 }
 
-TEST_F(Cli, a_picture_whose_rows_count_from_the_top_stands_upright) {
+TEST_F(Cli, APictureWhoseRowsCountFromTheTopStandsUpright) {
   const std::string scene = kScenes + "notes/gzrender_cut.json";
   ASSERT_EQ(plumb("render " + scene + " -o " + at("c.exr") + " --depth " + at("d.exr")).code, 0);
   ASSERT_EQ(plumb("capture " + scene + " " + at("capture")).code, 0);
@@ -246,7 +246,7 @@ TEST_F(Cli, a_picture_whose_rows_count_from_the_top_stands_upright) {
 }
 
 // image_order finds visibility alone: its picture shows each primitive in its own colour.
-TEST_F(Cli, image_order_judges_visibility_and_draws_primitives) {
+TEST_F(Cli, ImageOrderJudgesVisibilityAndDrawsPrimitives) {
   const std::string scene = kScenes + "cull/both_windings.json";
   EXPECT_EQ(plumb("check " + scene + " --against image_order").code, 0);
   const Outcome fault =
@@ -278,7 +278,7 @@ TEST_F(Cli, image_order_judges_visibility_and_draws_primitives) {
   EXPECT_EQ(pairs.size(), primitives.size()) << "one colour for each";
 }
 
-TEST_F(Cli, json_and_page_are_written) {
+TEST_F(Cli, JsonAndPageAreWritten) {
   const Outcome run =
       plumb("check " + kScenes + "cull --against exact --json " + at("out.json") + " --report " + at("page"));
   EXPECT_EQ(run.code, 0) << run.text;
@@ -293,7 +293,7 @@ TEST_F(Cli, json_and_page_are_written) {
   EXPECT_EQ(plumb("check " + kScenes + "cull --against exact --json " + at("no/such/out.json")).code, 2);
 }
 
-TEST_F(Cli, capture_writes_a_folder_that_reads_back) {
+TEST_F(Cli, CaptureWritesAFolderThatReadsBack) {
   const Outcome run = plumb("capture " + kScenes + "cull/both_windings.json " + at("capture") + " --with exact");
   EXPECT_EQ(run.code, 0) << run.text;
   const Capture capture = read_capture(at("capture"));
@@ -301,7 +301,7 @@ TEST_F(Cli, capture_writes_a_folder_that_reads_back) {
   EXPECT_GT(capture.records.triangles.size(), 0u);
 }
 
-TEST_F(Cli, render_writes_pictures_of_every_ending_that_holds_the_format) {
+TEST_F(Cli, RenderWritesPicturesOfEveryEndingThatHoldsTheFormat) {
   const std::string scene = kScenes + "frame/rgba12.json";
   for (const char* file : {"c.png", "c.ppm", "c.exr"}) {
     const Outcome run = plumb("render " + scene + " -o " + at(file));
@@ -318,7 +318,7 @@ TEST_F(Cli, render_writes_pictures_of_every_ending_that_holds_the_format) {
   EXPECT_EQ(read_image(at("c.tga")).size(), 1u);
 }
 
-TEST_F(Cli, list_names_what_there_is) {
+TEST_F(Cli, ListNamesWhatThereIs) {
   const Outcome run = plumb("list");
   EXPECT_EQ(run.code, 0);
   for (const char* word : {"coverage", "ours", "exact", "window.snap_truncates"}) {
@@ -332,7 +332,7 @@ TEST_F(Cli, list_names_what_there_is) {
   EXPECT_EQ(superfluous.text, "plumb: list stages: expected no folder, found extra\n");
 }
 
-TEST_F(Cli, check_refuses_a_fault_that_none_is_before_it_prints) {
+TEST_F(Cli, CheckRefusesAFaultThatNoneIsBeforeItPrints) {
   const Outcome run = plumb("check " + kSharedEdges + " --fault coverage.inclusive_edge");
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(run.text,

@@ -26,7 +26,7 @@ class Compare : public Cli {
   }
 };
 
-TEST_F(Compare, ends_0_where_all_holds_and_1_where_something_differs) {
+TEST_F(Compare, Ends0WhereAllHoldsAnd1WhereSomethingDiffers) {
   write_images();
   const Outcome same = compare("a.png", "same.png");
   EXPECT_EQ(same.code, 0) << same.text;
@@ -46,7 +46,7 @@ TEST_F(Compare, ends_0_where_all_holds_and_1_where_something_differs) {
 }
 
 // Captures load without OpenImageIO's quarter of a second.
-TEST_F(Compare, takes_a_tolerance_as_a_number_or_a_fraction) {
+TEST_F(Compare, TakesAToleranceAsANumberOrAFraction) {
   Capture capture;
   capture.renderer = "mine";
   capture.width = 5;
@@ -64,7 +64,7 @@ TEST_F(Compare, takes_a_tolerance_as_a_number_or_a_fraction) {
   EXPECT_EQ(compare("a", "step", "--tolerance 1/256").code, 1);
 }
 
-TEST_F(Compare, ends_2_where_it_cannot_compare) {
+TEST_F(Compare, Ends2WhereItCannotCompare) {
   for (const char* name : {"a.png", "same.png"})
     fs::copy(PLUMBLINE_SOURCE_DIR "/tests/walkthrough/right.png", at(name));
   const std::string before = test::text_of(at("a.png"));
@@ -93,7 +93,7 @@ TEST_F(Compare, ends_2_where_it_cannot_compare) {
   EXPECT_TRUE(test::text_of(a) == before) << "not overwritten";
 }
 
-TEST_F(Compare, writes_the_difference_and_json) {
+TEST_F(Compare, WritesTheDifferenceAndJson) {
   write_images();
   const Outcome run = compare("a.png", "step.png", "-o " + at("d.png") + " --json " + at("d.json"));
   EXPECT_EQ(run.code, 1) << run.text;
@@ -117,7 +117,7 @@ TEST_F(Compare, writes_the_difference_and_json) {
   EXPECT_FALSE(fs::exists(at("none.png")));
 }
 
-TEST_F(Compare, takes_two_captures) {
+TEST_F(Compare, TakesTwoCaptures) {
   const std::string scene = kScenes + "cull/both_windings.json ";
   EXPECT_EQ(plumb("capture " + scene + at("ours")).code, 0);
   EXPECT_EQ(plumb("capture " + scene + at("again")).code, 0);

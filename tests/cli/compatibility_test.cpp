@@ -40,32 +40,32 @@ void missing(const Json& old, const Json& now, const std::string& at, std::set<s
   }
 }
 
-TEST_F(Compatibility, a_scene_of_0_1_draws_the_same_bits) {
+TEST_F(Compatibility, ASceneOf01DrawsTheSameBits) {
   EXPECT_EQ(plumb("capture " + kOld + "scene.json " + at("now")).code, 0);
   const Outcome compared = plumb("compare " + kOld + "capture " + at("now"));
   EXPECT_EQ(compared.code, 0) << compared.text;
 }
 
-TEST_F(Compatibility, a_capture_of_0_1_is_judged) {
+TEST_F(Compatibility, ACaptureOf01IsJudged) {
   const Outcome judged = plumb("diagnose " + kOld + "scene.json --against exact --capture " + kOld + "capture");
   EXPECT_EQ(judged.code, 0) << judged.text;
   EXPECT_TRUE(judged.says("first different stage: none")) << judged.text;
 }
 
-TEST_F(Compatibility, conventions_of_0_1_are_taken) {
+TEST_F(Compatibility, ConventionsOf01AreTaken) {
   const Outcome judged = plumb("diagnose " + kOld + "scene.json --against exact --capture " + kOld +
                                "capture --conventions " + kOld + "conventions.json");
   EXPECT_EQ(judged.code, 0) << judged.text;
 }
 
-TEST_F(Compatibility, runs_of_0_1_are_merged_and_compared) {
+TEST_F(Compatibility, RunsOf01AreMergedAndCompared) {
   const Outcome merged = plumb("report merge " + kOld + "run.json -o " + at("merged.json"));
   EXPECT_EQ(merged.code, 0) << merged.text;
   const Outcome same = plumb("report diff " + kOld + "run.json " + at("merged.json"));
   EXPECT_EQ(same.code, 0) << same.text;
 }
 
-TEST_F(Compatibility, json_has_every_key_of_0_1) {
+TEST_F(Compatibility, JsonHasEveryKeyOf01) {
   EXPECT_EQ(plumb("check " + kOld + "scene.json --no-cache --json " + at("run.json")).code, 0);
   EXPECT_EQ(plumb("diagnose " + kOld + "scene.json --fault merge.truncated --json " + at("diagnosis.json")).code, 1);
   for (const std::string name : {"run", "diagnosis"}) {
@@ -81,7 +81,7 @@ TEST_F(Compatibility, json_has_every_key_of_0_1) {
   }
 }
 
-TEST_F(Compatibility, another_version_is_refused) {
+TEST_F(Compatibility, AnotherVersionIsRefused) {
   const std::string scene = kOld + "scene.json ";
   const std::string refused = "expected 1, found 2";
   const std::string of_scene = altered(scene.substr(0, scene.size() - 1), "{", R"({"version": 2,)");
@@ -107,7 +107,7 @@ TEST_F(Compatibility, another_version_is_refused) {
   EXPECT_TRUE(by_capture.says("at \"/version\": " + refused)) << by_capture.text;
 }
 
-TEST_F(Compatibility, a_version_of_this_format_is_taken) {
+TEST_F(Compatibility, AVersionOfThisFormatIsTaken) {
   const std::string scene = altered(kOld + "scene.json", "{", R"({"version": 1,)");
   EXPECT_EQ(plumb("render " + scene + " -o " + at("a.png")).code, 0);
 }

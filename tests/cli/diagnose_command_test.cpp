@@ -10,7 +10,7 @@
 namespace plumbline {
 namespace {
 
-TEST_F(Cli, diagnose_of_ours_ends_0_and_names_nothing) {
+TEST_F(Cli, DiagnoseOfOursEnds0AndNamesNothing) {
   const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact");
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(run.says("first different stage: none\nwrong by itself: none\n")) << run.text;
@@ -18,7 +18,7 @@ TEST_F(Cli, diagnose_of_ours_ends_0_and_names_nothing) {
   EXPECT_FALSE(run.says("->"));
 }
 
-TEST_F(Cli, diagnose_of_a_fault_ends_1_and_says_stage_numbers_cause_and_picture) {
+TEST_F(Cli, DiagnoseOfAFaultEnds1AndSaysStageNumbersCauseAndPicture) {
   const Outcome run =
       plumb("diagnose " + kSharedEdges + " --against exact --fault coverage.inclusive_edges --json " + at("d.json"));
   EXPECT_EQ(run.code, 1) << run.text;
@@ -36,7 +36,7 @@ TEST_F(Cli, diagnose_of_a_fault_ends_1_and_says_stage_numbers_cause_and_picture)
   }
 }
 
-TEST_F(Cli, diagnose_of_a_folder_judges_what_is_in_it) {
+TEST_F(Cli, DiagnoseOfAFolderJudgesWhatIsInIt) {
   ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("good")).code, 0);
   const Outcome good = plumb("diagnose " + kSharedEdges + " --against exact --capture " + at("good"));
   EXPECT_EQ(good.code, 0) << good.text;
@@ -50,7 +50,7 @@ TEST_F(Cli, diagnose_of_a_folder_judges_what_is_in_it) {
   EXPECT_FALSE(bad.says(", repaired")) << "its stages cannot be called";
 }
 
-TEST_F(Cli, diagnose_refuses_a_folder_that_is_not_of_the_scene) {
+TEST_F(Cli, DiagnoseRefusesAFolderThatIsNotOfTheScene) {
   ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("capture")).code, 0);
   const std::string folder = " --against exact --capture " + at("capture");
   const Outcome size = plumb("diagnose " + kScenes + "frame/odd_129x17.json" + folder);
@@ -67,7 +67,7 @@ TEST_F(Cli, diagnose_refuses_a_folder_that_is_not_of_the_scene) {
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + folder + " --fault coverage.inclusive_edges").code, 2);
 }
 
-TEST_F(Cli, diagnose_runs_a_program) {
+TEST_F(Cli, DiagnoseRunsAProgram) {
   const std::string program = "'" PLUMBLINE_PLUMB " capture {scene} {output}";
   const Outcome right = plumb("diagnose " + kSharedEdges + " --against exact --program " + program + "'");
   EXPECT_EQ(right.code, 0);
@@ -85,7 +85,7 @@ TEST_F(Cli, diagnose_runs_a_program) {
   EXPECT_TRUE(failed.says("exited with status 3") && failed.says("no use")) << failed.text;
 }
 
-TEST_F(Cli, diagnose_names_learn_where_no_known_fault_explains_a_programs_frame) {
+TEST_F(Cli, DiagnoseNamesLearnWhereNoKnownFaultExplainsAProgramsFrame) {
   const std::string judged =
       "diagnose " + kSharedEdges + " --against exact --program '" PLUMBLINE_PLUMB " capture {scene} {output}";
   const std::string said = "no known fault draws such a frame; the renderer's own conventions";
@@ -104,7 +104,7 @@ TEST_F(Cli, diagnose_names_learn_where_no_known_fault_explains_a_programs_frame)
   EXPECT_TRUE(declared.says("\nno known fault draws such a frame\n")) << declared.text;
 }
 
-TEST_F(Cli, diagnose_of_a_picture_names_the_bugs_that_draw_it) {
+TEST_F(Cli, DiagnoseOfAPictureNamesTheBugsThatDrawIt) {
   ASSERT_EQ(plumb("render " + kSharedEdges + " -o " + at("right.png")).code, 0);
   const Outcome right = plumb("diagnose " + kSharedEdges + " --picture " + at("right.png"));
   EXPECT_EQ(right.code, 0) << right.text;
@@ -115,7 +115,7 @@ TEST_F(Cli, diagnose_of_a_picture_names_the_bugs_that_draw_it) {
   EXPECT_TRUE(wrong.says(" 100.0 %            0  window.half_pixel_off ")) << wrong.text;
 }
 
-TEST_F(Cli, diagnose_of_a_picture_of_one_color_names_no_fault) {
+TEST_F(Cli, DiagnoseOfAPictureOfOneColorNamesNoFault) {
   const auto diagnosed = [&](const glm::vec4& color) {
     write_image(at("one.png"), Plane<glm::vec4>(112, 96, color));
     const Outcome run = plumb("diagnose " + kScenes + "texture/globe.json --picture " + at("one.png"));
@@ -128,7 +128,7 @@ TEST_F(Cli, diagnose_of_a_picture_of_one_color_names_no_fault) {
   EXPECT_TRUE(diagnosed(glm::vec4(1)).says("the colour 1, 1, 1, and not the clear colour"));
 }
 
-TEST_F(Cli, diagnose_of_a_picture_takes_its_depth_too) {
+TEST_F(Cli, DiagnoseOfAPictureTakesItsDepthToo) {
   const std::string drawn =
       "render " + kScenes + "depth/functions.json -o " + at("picture.png") + " --depth " + at("z.exr");
   const std::string judged = "diagnose " + kScenes + "depth/functions.json --picture " + at("picture.png");
@@ -142,7 +142,7 @@ TEST_F(Cli, diagnose_of_a_picture_takes_its_depth_too) {
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --depth " + at("z.exr")).code, 2);
 }
 
-TEST_F(Cli, diagnose_of_a_picture_names_depths_of_another_convention) {
+TEST_F(Cli, DiagnoseOfAPictureNamesDepthsOfAnotherConvention) {
   const std::string judged =
       "diagnose " + kScenes + "depth/functions.json --picture " + at("picture.png") + " --depth ";
   ASSERT_EQ(
@@ -158,7 +158,7 @@ TEST_F(Cli, diagnose_of_a_picture_names_depths_of_another_convention) {
   }
 }
 
-TEST_F(Cli, diagnose_of_a_capture_names_the_bugs_that_draw_its_frame) {
+TEST_F(Cli, DiagnoseOfACaptureNamesTheBugsThatDrawItsFrame) {
   ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("bad") + " --fault window.half_pixel_off").code, 0);
   const Outcome bad = plumb("diagnose " + kSharedEdges + " --against exact --capture " + at("bad"));
   EXPECT_EQ(bad.code, 1);
@@ -166,7 +166,7 @@ TEST_F(Cli, diagnose_of_a_capture_names_the_bugs_that_draw_its_frame) {
   EXPECT_TRUE(bad.says(" 100.0 %            0  window.half_pixel_off ")) << bad.text;
 }
 
-TEST_F(Cli, diagnose_of_a_picture_refuses_what_is_no_picture_of_the_scene) {
+TEST_F(Cli, DiagnoseOfAPictureRefusesWhatIsNoPictureOfTheScene) {
   ASSERT_EQ(plumb("render " + kScenes + "texture/globe.json -o " + at("other.png")).code, 0);
   const Outcome other = plumb("diagnose " + kSharedEdges + " --picture " + at("other.png"));
   EXPECT_EQ(other.code, 2) << other.text;
@@ -185,7 +185,7 @@ TEST_F(Cli, diagnose_of_a_picture_refuses_what_is_no_picture_of_the_scene) {
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --picture " + at("other.png") + " --fault depth.truncated").code, 2);
 }
 
-TEST_F(Cli, diagnose_writes_a_page_with_the_pixels_history_or_nothing) {
+TEST_F(Cli, DiagnoseWritesAPageWithThePixelsHistoryOrNothing) {
   const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact --pixel 32,32 --report " + at("page"));
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_NE(test::text_of(at("page/index.html")).find("pixel 32,32 of"), std::string::npos);

@@ -6,7 +6,7 @@ namespace {
 
 const std::string kWindows = kScenes + "scissor/windows.json";
 
-TEST_F(Cli, a_pixels_history_follows_the_diagnosis) {
+TEST_F(Cli, APixelsHistoryFollowsTheDiagnosis) {
   const Outcome run = plumb("diagnose " + kWindows + " --against exact --pixel 70,60 --json " + at("out.json"));
   EXPECT_EQ(run.code, 0) << run.text;
   const std::size_t history = run.text.find("\npixel 70,60 of ");
@@ -19,7 +19,7 @@ TEST_F(Cli, a_pixels_history_follows_the_diagnosis) {
 }
 
 // Corners half a pixel off are right in a renderer that samples pixels at their corners.
-TEST_F(Cli, a_pixels_history_is_by_the_conventions) {
+TEST_F(Cli, APixelsHistoryIsByTheConventions) {
   const std::string by = "diagnose " + kSharedEdges +
                          " --against exact --pixel 98,5 --program '" PLUMBLINE_PLUMB
                          " capture {scene} {output} --fault window.half_pixel_off'";
@@ -33,13 +33,13 @@ TEST_F(Cli, a_pixels_history_is_by_the_conventions) {
   EXPECT_FALSE(declared.says(" = code ")) << declared.text;
 }
 
-TEST_F(Cli, without_it_there_is_none) {
+TEST_F(Cli, WithoutItThereIsNone) {
   const Outcome run = plumb("diagnose " + kWindows + " --against exact --json " + at("out.json"));
   EXPECT_FALSE(run.says("\npixel ")) << run.text;
   EXPECT_EQ(test::text_of(at("out.json")).find("pixel_history"), std::string::npos);
 }
 
-TEST_F(Cli, a_bad_pixel_ends_the_run_with_the_frames_size) {
+TEST_F(Cli, ABadPixelEndsTheRunWithTheFramesSize) {
   const Outcome fits = plumb("diagnose " + kWindows + " --against exact --pixel 0,0");
   EXPECT_EQ(fits.code, 0) << fits.text;
   for (const char* bad : {"5", "5,x", "5,5,5", "' 5,5'", "-1,0", "97,0", "0,83", "99999999999,1"}) {

@@ -24,7 +24,7 @@ std::string limits_of(const std::string& ending) {
   return " --time-limit " + (ending == "hang" ? kHangs : "60") + " --memory-limit 512";
 }
 
-TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
+TEST_F(FailingRenderers, AreRowsWithTheStageThatWasRunning) {
   const std::pair<const char*, std::string> kEndings[] = {
       {"throw", "vertex: a vertex too many"},
       {"memory", "light: took more memory than a worker may have"},
@@ -47,7 +47,7 @@ TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
 }
 
 // A reference that cannot be made is its own row; the others judge.
-TEST_F(FailingRenderers, may_lack_memory_from_their_start_on) {
+TEST_F(FailingRenderers, MayLackMemoryFromTheirStartOn) {
   const std::string two = kWindings + " " + kScenes + "scissor/windows.json";
   // AddressSanitizer holds freed memory back, which would count; libLLVM alone is larger than 64 MiB.
   const std::string environment = kAddressSanitizer ? "ASAN_OPTIONS=\"$ASAN_OPTIONS:quarantine_size_mb=0\" " : "";
@@ -60,7 +60,7 @@ TEST_F(FailingRenderers, may_lack_memory_from_their_start_on) {
       << run.text;
 }
 
-TEST_F(FailingRenderers, are_judged_up_to_the_stage_that_fails) {
+TEST_F(FailingRenderers, AreJudgedUpToTheStageThatFails) {
   const Outcome run = plumb("check " + kWindings + " --against exact --fault endings.crash");
   EXPECT_TRUE(run.says("exact, per stage         light      equal")) << run.text;
   EXPECT_TRUE(run.says("exact, per stage         8 stages   unsupported")) << run.text;
@@ -69,7 +69,7 @@ TEST_F(FailingRenderers, are_judged_up_to_the_stage_that_fails) {
       << run.text;
 }
 
-TEST_F(FailingRenderers, leave_the_other_scenes_alone) {
+TEST_F(FailingRenderers, LeaveTheOtherScenesAlone) {
   const std::string two = kWindings + " " + kScenes + "scissor/windows.json";
   const Outcome run = plumb("check " + two + " --against exact --fault endings.crash --jobs 2");
   EXPECT_EQ(run.code, 1);
@@ -79,7 +79,7 @@ TEST_F(FailingRenderers, leave_the_other_scenes_alone) {
 }
 
 // One of 50 scenes fails, in one row; a reference that ends its worker takes no other scene with it.
-TEST_F(FailingRenderers, fail_one_scene_of_a_run) {
+TEST_F(FailingRenderers, FailOneSceneOfARun) {
   std::vector<fs::path> scenes;
   for (const char* group : {"coverage", "cull", "scissor", "depth", "masks", "stencil"}) {
     for (const auto& file : fs::directory_iterator(kScenes + group)) {

@@ -13,7 +13,7 @@ std::string declared(const std::string& more) {
   return R"({"format": "plumbline conventions", "version": 1, )" + more + "}";
 }
 
-TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
+TEST_F(Cli, LearnFindsAndWritesAProgramsConventions) {
   const Outcome run = plumb("learn" + kLearnedProgram + " -o " + at("c.json") + " --pictures " + at("pictures"));
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(run.says("subpixel_bits      8")) << run.text;
@@ -31,7 +31,7 @@ TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
 }
 
 // A server that draws nothing new after its eighth probe.
-TEST_F(Cli, learn_finds_that_a_server_keeps_a_state) {
+TEST_F(Cli, LearnFindsThatAServerKeepsAState) {
   test::write_text(
       at("mine"),
       "#!/bin/sh\n"
@@ -60,7 +60,7 @@ void leave_the_frame(const std::string& path) {
   test::write_text(path, manifest.dump());
 }
 
-TEST_F(Cli, a_declared_tie_rule_is_judged_by_the_frame_alone) {
+TEST_F(Cli, ADeclaredTieRuleIsJudgedByTheFrameAlone) {
   const std::string scene = kScenes + "coverage/on_centres.json";
   ASSERT_EQ(plumb("capture " + scene + " " + at("capture") + " --fault coverage.top_for_bottom").code, 0);
   leave_the_frame(at("capture/manifest.json"));
@@ -75,7 +75,7 @@ TEST_F(Cli, a_declared_tie_rule_is_judged_by_the_frame_alone) {
 }
 
 // Records too: exact makes their coverage by the dialect's rule.
-TEST_F(Cli, a_declared_tie_rule_is_no_difference_of_the_records) {
+TEST_F(Cli, ADeclaredTieRuleIsNoDifferenceOfTheRecords) {
   const std::string scene = kScenes + "coverage/on_centres.json";
   ASSERT_EQ(plumb("capture " + scene + " " + at("capture") + " --fault coverage.top_for_bottom").code, 0);
   const std::string by = "diagnose " + scene + " --against exact --capture " + at("capture") + " --conventions ";
@@ -89,7 +89,7 @@ TEST_F(Cli, a_declared_tie_rule_is_no_difference_of_the_records) {
   EXPECT_TRUE(other.says("wrong by itself: coverage")) << other.text;
 }
 
-TEST_F(Cli, a_mistaken_convention_is_one_finding_and_the_rest_is_judged) {
+TEST_F(Cli, AMistakenConventionIsOneFindingAndTheRestIsJudged) {
   // Our own picture, its rows turned over: declared, nothing else is wrong.
   ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("capture") + " --fault window.y_flipped").code, 0);
   leave_the_frame(at("capture/manifest.json"));
@@ -102,14 +102,14 @@ TEST_F(Cli, a_mistaken_convention_is_one_finding_and_the_rest_is_judged) {
   EXPECT_TRUE(run.says("first different stage: none")) << run.text;
 }
 
-TEST_F(Cli, a_mistaken_convention_of_a_suite_ends_1_with_one_line) {
+TEST_F(Cli, AMistakenConventionOfASuiteEnds1WithOneLine) {
   test::write_text(at("c.json"), declared(R"("color_rounding": "down")"));
   const Outcome run = plumb("check " + kScenes + "cull" + kLearnedProgram + " --conventions " + at("c.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("convention color_rounding: down, expected nearest (how colours become codes)\n")) << run.text;
 }
 
-TEST_F(Cli, a_failure_is_repeated_by_the_conventions_too) {
+TEST_F(Cli, AFailureIsRepeatedByTheConventionsToo) {
   test::write_text(at("c.json"), declared(R"("depth_range": "one_to_zero")"));
   const Outcome run = plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json"));
   EXPECT_EQ(run.code, 1) << run.text;
@@ -117,7 +117,7 @@ TEST_F(Cli, a_failure_is_repeated_by_the_conventions_too) {
   EXPECT_TRUE(run.says("may be others than those of " + at("c.json") + ":\n  plumb learn --program")) << run.text;
 }
 
-TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
+TEST_F(Cli, WhatLearnLeftUnexplainedIsAFindingOfCheckAndDiagnose) {
   test::write_text(at("c.json"), declared(R"("open": ["blending", "texture_bits", "tie_rule"], "texture_bits": 10,
                                   "unexplained": ["one scene drawn twice differs"])"));
   const std::string by = kLearnedProgram + " --conventions " + at("c.json");
@@ -133,7 +133,7 @@ TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
   EXPECT_TRUE(diagnose.says("\nthe stages hold; FAILED by the mistakes in the conventions\n")) << diagnose.text;
 }
 
-TEST_F(Cli, conventions_that_are_none_are_refused) {
+TEST_F(Cli, ConventionsThatAreNoneAreRefused) {
   test::write_text(at("c.json"), declared(R"("rows": "sideways")"));
   const std::string with = " --conventions " + at("c.json");
   for (const std::string& line :
@@ -147,7 +147,7 @@ TEST_F(Cli, conventions_that_are_none_are_refused) {
   EXPECT_EQ(plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("nothing.json")).code, 2);
 }
 
-TEST_F(Cli, learn_of_what_draws_nothing_is_refused) {
+TEST_F(Cli, LearnOfWhatDrawsNothingIsRefused) {
   const Outcome unable = plumb("learn --program 'sh -c \"echo no >&2; exit 77\" {input} {output}'");
   EXPECT_EQ(unable.code, 2) << unable.text;
   EXPECT_TRUE(unable.says("expected a rectangle of unlit triangles, found unsupported: no")) << unable.text;

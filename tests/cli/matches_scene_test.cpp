@@ -30,8 +30,8 @@ struct MatcherOfScenes : Cli {
   fs::path before_ = fs::current_path();
 };
 
-TEST_F(MatcherOfScenes, leaves_a_page_of_each_failure) {
-  const std::string page = at("plumbline_pages/MatcherOfScenes.leaves_a_page_of_each_failure/one_pixel");
+TEST_F(MatcherOfScenes, LeavesAPageOfEachFailure) {
+  const std::string page = at("plumbline_pages/MatcherOfScenes.LeavesAPageOfEachFailure/one_pixel");
   const std::string first = said_of_black();
   EXPECT_NE(first.find("page: " + page + "/index.html"), std::string::npos) << first;
   SUCCEED();  // a part of the test's result, as a failure is
@@ -40,7 +40,7 @@ TEST_F(MatcherOfScenes, leaves_a_page_of_each_failure) {
   EXPECT_TRUE(fs::exists(page + "/index.html") && fs::exists(page + ".1/index.html"));
 }
 
-TEST_F(MatcherOfScenes, keeps_its_finding_where_no_page_can_be_written) {
+TEST_F(MatcherOfScenes, KeepsItsFindingWhereNoPageCanBeWritten) {
   test::write_text("plumbline_pages", "a file");
   const std::string said = said_of_black();
   EXPECT_NE(said.find("first different stage: "), std::string::npos) << said;
@@ -48,7 +48,7 @@ TEST_F(MatcherOfScenes, keeps_its_finding_where_no_page_can_be_written) {
 }
 
 // Many faults draw nothing: none of these is the likely one.
-TEST_F(MatcherOfScenes, says_of_an_empty_frame_that_nothing_is_drawn) {
+TEST_F(MatcherOfScenes, SaysOfAnEmptyFrameThatNothingIsDrawn) {
   constexpr int kWidth = 128, kHeight = 128;
   DrawnFrame empty{kWidth, kHeight, {}, std::vector<double>(kWidth * kHeight, 1.0)};
   for (int i = 0; i < kWidth * kHeight; ++i) empty.color.insert(empty.color.end(), {0, 0, 0, 1});
@@ -59,7 +59,7 @@ TEST_F(MatcherOfScenes, says_of_an_empty_frame_that_nothing_is_drawn) {
   EXPECT_EQ(said.find("likely stage"), std::string::npos) << said;
 }
 
-TEST_F(MatcherOfScenes, says_which_size_a_frame_has) {
+TEST_F(MatcherOfScenes, SaysWhichSizeAFrameHas) {
   const DrawnFrame large{2, 1, {0, 0, 0, 1, 0, 0, 0, 1}, {}};
   try {
     MatchesScene(kScenes + "frame/one_pixel.json").MatchAndExplain(large, nullptr);
@@ -72,7 +72,7 @@ TEST_F(MatcherOfScenes, says_which_size_a_frame_has) {
   }
 }
 
-TEST_F(MatcherOfScenes, refuses_a_frame_without_pixels) {
+TEST_F(MatcherOfScenes, RefusesAFrameWithoutPixels) {
   EXPECT_THROW(MatchesScene(kScenes + "frame/one_pixel.json").MatchAndExplain(DrawnFrame{}, nullptr),
                std::runtime_error);
 }

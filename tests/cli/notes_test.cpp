@@ -11,7 +11,7 @@ namespace {
 using notes::Note;
 using notes::Teaching;
 
-TEST_F(Cli, notes_prints_every_row_of_one_note_or_of_all) {
+TEST_F(Cli, NotesPrintsEveryRowOfOneNoteOrOfAll) {
   const Outcome all = plumb("notes");
   EXPECT_EQ(all.code, 0);
   for (const Note& note : notes::all()) {
@@ -32,7 +32,7 @@ TEST_F(Cli, notes_prints_every_row_of_one_note_or_of_all) {
   EXPECT_FALSE(plumb("notes 001").says("GzRender"));
 }
 
-TEST_F(Cli, notes_of_an_unknown_number_ends_2_and_names_those_there_are) {
+TEST_F(Cli, NotesOfAnUnknownNumberEnds2AndNamesThoseThereAre) {
   const Outcome run = plumb("notes 003");
   EXPECT_EQ(run.code, 2);
   EXPECT_TRUE(run.says("003") && run.says("000") && run.says("004")) << run.text;

@@ -18,7 +18,7 @@ std::unique_ptr<Renderer> softpipe() {
   return make_process_renderer(spec);
 }
 
-TEST(SoftpipeChild, agrees_with_us_but_for_ties_that_it_breaks_otherwise) {
+TEST(SoftpipeChild, AgreesWithUsButForTiesThatItBreaksOtherwise) {
   const auto child = softpipe();
   const auto ours = pipeline::make_pipeline();
   for (const char* name : {"clip/each_plane", "light/sphere_gouraud", "depth/interpenetrating"}) {
@@ -34,7 +34,7 @@ TEST(SoftpipeChild, agrees_with_us_but_for_ties_that_it_breaks_otherwise) {
   }
 }
 
-TEST(SoftpipeChild, a_child_that_cannot_draw_fails_with_its_words) {
+TEST(SoftpipeChild, AChildThatCannotDrawFailsWithItsWords) {
   ProcessSpec spec;
   spec.name = "broken";
   spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{output}", "--with", "no-such-renderer"};
@@ -60,7 +60,7 @@ std::string row_of(const std::string& table, const std::string& reference, const
 
 const std::string kTies = kScenes + "coverage/on_centres.json";  // softpipe draws 568 of its pixels otherwise
 
-TEST_F(Cli, softpipe_breaks_ties_otherwise_which_exact_settles) {
+TEST_F(Cli, SoftpipeBreaksTiesOtherwiseWhichExactSettles) {
   const Outcome run = plumb("check " + kTies + " --against softpipe,exact," + kOpenGl);
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("dispute"), std::string::npos) << run.text;
@@ -69,7 +69,7 @@ TEST_F(Cli, softpipe_breaks_ties_otherwise_which_exact_settles) {
   EXPECT_NE(row_of(run.text, "softpipe", "window").find("rounded otherwise"), std::string::npos) << run.text;
 }
 
-TEST_F(Cli, softpipe_alone_is_settled_by_exact_which_was_not_named) {
+TEST_F(Cli, SoftpipeAloneIsSettledByExactWhichWasNotNamed) {
   const Outcome run = plumb("check " + kTies + " --against softpipe");
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("dispute"), std::string::npos) << run.text;
@@ -77,33 +77,33 @@ TEST_F(Cli, softpipe_alone_is_settled_by_exact_which_was_not_named) {
   for (const char* arbiter : {" exact ", " exact, ", " embree "}) EXPECT_EQ(rows.find(arbiter), rows.npos) << run.text;
 }
 
-TEST_F(Cli, softpipe_alone_sees_a_fault) {
+TEST_F(Cli, SoftpipeAloneSeesAFault) {
   const Outcome run = plumb("check " + kTies + " --against softpipe --fault coverage.inclusive_edges");
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("different"), std::string::npos) << run.text;
   EXPECT_TRUE(run.says("repeat: " PLUMBLINE_PLUMB " check " + kTies + " --against softpipe --fault")) << run.text;
 }
 
-TEST_F(Cli, softpipe_sees_a_fault) {
+TEST_F(Cli, SoftpipeSeesAFault) {
   const Outcome run = plumb("check " + kTies + " --against softpipe,exact --fault coverage.inclusive_edges");
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("different"), std::string::npos) << run.text;
 }
 
 // Mesa's own way adds 16-bit depth up in rounded steps.
-TEST_F(Cli, softpipe_has_16_bit_depth) {
+TEST_F(Cli, SoftpipeHas16BitDepth) {
   const Outcome run =
       plumb("check " + kScenes + "depth/z16.json " + kScenes + "camera/off_centre_ortho.json --against softpipe,exact");
   EXPECT_EQ(run.code, 0) << run.text;
 }
 
-TEST_F(Cli, softpipe_is_asked_only_by_name) {
+TEST_F(Cli, SoftpipeIsAskedOnlyByName) {
   const Outcome run = plumb("check " + kScenes + "cull/both_windings.json");
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_FALSE(run.says("softpipe") || run.says(kOpenGl == "egl" ? " osmesa " : " egl ")) << run.text;
 }
 
-TEST_F(Cli, softpipe_finds_meshes_where_assets_allow) {
+TEST_F(Cli, SoftpipeFindsMeshesWhereAssetsAllow) {
   fs::create_directories(folder_ / "the meshes");
   test::write_text(folder_ / "the meshes/one.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
   const std::string scene = scene_file(R"({

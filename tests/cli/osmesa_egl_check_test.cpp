@@ -4,7 +4,7 @@
 namespace plumbline {
 namespace {
 
-TEST_F(Cli, osmesa_and_egl_and_softpipe_vote_in_one_run) {
+TEST_F(Cli, OsmesaAndEglAndSoftpipeVoteInOneRun) {
   const std::string scene = kScenes + "clip/each_plane.json";
   const Outcome run = plumb("check " + scene + " --against exact,softpipe,egl,osmesa");
   EXPECT_EQ(run.code, 0) << run.text;
@@ -16,7 +16,7 @@ TEST_F(Cli, osmesa_and_egl_and_softpipe_vote_in_one_run) {
 }
 
 // The child process hands on the reason.
-TEST_F(Cli, egl_and_softpipe_say_why_a_scene_is_unsupported) {
+TEST_F(Cli, EglAndSoftpipeSayWhyASceneIsUnsupported) {
   const Outcome run = plumb("check " + kScenes + "polygon_mode/clipped.json --against egl,softpipe,exact");
   EXPECT_EQ(run.code, 0) << run.text;
   for (const char* name : {" egl  ", " softpipe  "}) {
@@ -29,7 +29,7 @@ TEST_F(Cli, egl_and_softpipe_say_why_a_scene_is_unsupported) {
 }
 
 // Unlike softpipe, it shows every stage that osmesa does.
-TEST_F(Cli, egl_is_listed_with_its_stages) {
+TEST_F(Cli, EglIsListedWithItsStages) {
   const std::string text = plumb("list renderers").text;
   const auto stages = [&](const std::string& name) {
     const std::size_t from = text.find('\n', text.find("\n" + name + " (") + 1) + 1;
@@ -40,7 +40,7 @@ TEST_F(Cli, egl_is_listed_with_its_stages) {
 }
 
 // libglvnd looks for EGL's libraries in the folder that the variable names.
-TEST_F(Cli, egl_is_listed_as_not_usable_where_its_process_fails) {
+TEST_F(Cli, EglIsListedAsNotUsableWhereItsProcessFails) {
   ::setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
   const Outcome run = plumb("list renderers");
   ::unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
@@ -51,7 +51,7 @@ TEST_F(Cli, egl_is_listed_as_not_usable_where_its_process_fails) {
   EXPECT_NE(run.text.find("\nosmesa ("), std::string::npos) << run.text;
 }
 
-TEST_F(Cli, egl_is_listed_as_not_usable_without_a_temporary_folder) {
+TEST_F(Cli, EglIsListedAsNotUsableWithoutATemporaryFolder) {
   ::setenv("TMPDIR", "/proc", 1);  // where root makes no folder either
   const Outcome run = plumb("list renderers");
   ::unsetenv("TMPDIR");
@@ -61,7 +61,7 @@ TEST_F(Cli, egl_is_listed_as_not_usable_without_a_temporary_folder) {
   EXPECT_NE(run.text.find("\nosmesa ("), std::string::npos) << run.text;
 }
 
-TEST_F(Cli, a_reference_without_a_temporary_folder_is_bad_input) {
+TEST_F(Cli, AReferenceWithoutATemporaryFolderIsBadInput) {
   ::setenv("TMPDIR", "/proc", 1);  // where root makes no folder either
   for (const std::string& line : {kScenes + "frame/one_pixel.json --against egl,softpipe",
                                   kScenes + "frame/one_pixel.json --program 'true {scene} {output}'"}) {

@@ -60,13 +60,13 @@ class GoldenCommand : public Cli {
   }
 };
 
-TEST_F(GoldenCommand, check_holds_and_ends_0) {
+TEST_F(GoldenCommand, CheckHoldsAndEnds0) {
   const Outcome run = golden("check");
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(run.says("ok: ")) << run.text;
 }
 
-TEST_F(GoldenCommand, files_that_are_not_what_the_manifest_says_are_failures) {
+TEST_F(GoldenCommand, FilesThatAreNotWhatTheManifestSaysAreFailures) {
   const std::string picture = test::text_of(file("color"));
   for (const auto& [what, bytes] :
        std::map<std::string, std::string>{{"truncated", picture.substr(0, picture.size() / 2)},
@@ -84,7 +84,7 @@ TEST_F(GoldenCommand, files_that_are_not_what_the_manifest_says_are_failures) {
   EXPECT_TRUE(run.says("is not there")) << run.text;
 }
 
-TEST_F(GoldenCommand, update_makes_a_broken_file_anew) {
+TEST_F(GoldenCommand, UpdateMakesABrokenFileAnew) {
   const auto before = files();
   const fs::path broken[] = {file("color"), file("depth", "coverage/shared_edges"), file("stages", "depth/on_clear")};
   for (const fs::path& one : broken) test::write_text(one, "");
@@ -96,7 +96,7 @@ TEST_F(GoldenCommand, update_makes_a_broken_file_anew) {
   EXPECT_EQ(golden("check").code, 0);
 }
 
-TEST_F(GoldenCommand, an_extra_file_is_a_failure_what_a_kill_left_is_not) {
+TEST_F(GoldenCommand, AnExtraFileIsAFailureWhatAKillLeftIsNot) {
   test::write_text(folder_ / "golden/cull/both_windings/.plumb-1-2", "half");
   test::write_text(folder_ / "golden/cull/both_windings/color.0123456789abcdef.png", "half");
   const Outcome left = golden("check");
@@ -112,7 +112,7 @@ TEST_F(GoldenCommand, an_extra_file_is_a_failure_what_a_kill_left_is_not) {
   EXPECT_TRUE(fs::exists(at("golden/cull/notes.txt"))) << "nobody else's file is removed";
 }
 
-TEST_F(GoldenCommand, a_manifest_that_a_hand_has_changed_ends_2) {
+TEST_F(GoldenCommand, AManifestThatAHandHasChangedEnds2) {
   const fs::path manifest = folder_ / "golden/manifest.json";
   const std::string text = test::text_of(manifest);
   const std::string line = "\"cull/both_windings\": ";
@@ -138,7 +138,7 @@ TEST_F(GoldenCommand, a_manifest_that_a_hand_has_changed_ends_2) {
   EXPECT_EQ(golden("check").code, 2);
 }
 
-TEST_F(GoldenCommand, a_scene_that_changed_is_stale_until_the_references_vouch_again) {
+TEST_F(GoldenCommand, ASceneThatChangedIsStaleUntilTheReferencesVouchAgain) {
   change_scene("\"description\": \"", "\"description\": \"Changed. ");
   const Outcome stale = golden("check");
   EXPECT_EQ(stale.code, 1);
@@ -162,7 +162,7 @@ TEST_F(GoldenCommand, a_scene_that_changed_is_stale_until_the_references_vouch_a
   EXPECT_TRUE(files() == after) << "twice in a row: the second changes nothing";
 }
 
-TEST_F(GoldenCommand, a_fault_is_refused_with_the_reason_and_nothing_is_written) {
+TEST_F(GoldenCommand, AFaultIsRefusedWithTheReasonAndNothingIsWritten) {
   const auto before = files();
   const Outcome check = golden("check", "--fault coverage.inclusive_edges");
   EXPECT_EQ(check.code, 1);
@@ -177,7 +177,7 @@ TEST_F(GoldenCommand, a_fault_is_refused_with_the_reason_and_nothing_is_written)
   EXPECT_TRUE(files() == before);
 }
 
-TEST_F(GoldenCommand, a_scene_that_is_gone_takes_its_golden_with_it) {
+TEST_F(GoldenCommand, ASceneThatIsGoneTakesItsGoldenWithIt) {
   fs::remove(at("suite/cull/both_windings.json"));
   const Outcome orphan = golden("check");
   EXPECT_EQ(orphan.code, 1);
@@ -190,7 +190,7 @@ TEST_F(GoldenCommand, a_scene_that_is_gone_takes_its_golden_with_it) {
   EXPECT_EQ(golden("update").code, 0);
 }
 
-TEST_F(GoldenCommand, a_group_says_nothing_of_the_others) {
+TEST_F(GoldenCommand, AGroupSaysNothingOfTheOthers) {
   const std::map<std::string, std::string> before = files();
   const std::string group = "golden update --golden " + at("golden") + " --suite " + at("suite/cull");
   Outcome run = plumb(group);
@@ -210,7 +210,7 @@ TEST_F(GoldenCommand, a_group_says_nothing_of_the_others) {
   EXPECT_TRUE(fs::exists(folder_ / "golden/coverage"));
 }
 
-TEST_F(GoldenCommand, an_update_that_writes_nothing_makes_no_folder) {
+TEST_F(GoldenCommand, AnUpdateThatWritesNothingMakesNoFolder) {
   Outcome run =
       plumb("golden update --suite " + at("suite/cull") + " --golden " + at("nowhere") + " --fault window.y_flipped");
   EXPECT_EQ(run.code, 1) << run.text;
@@ -223,7 +223,7 @@ TEST_F(GoldenCommand, an_update_that_writes_nothing_makes_no_folder) {
   EXPECT_EQ(test::text_of(folder_ / "golden/notes.txt"), "mine");
 }
 
-TEST_F(GoldenCommand, one_update_at_a_time) {
+TEST_F(GoldenCommand, OneUpdateAtATime) {
   const int folder = ::open(at("golden").c_str(), O_RDONLY | O_DIRECTORY);
   ASSERT_EQ(::flock(folder, LOCK_EX), 0);
   for (const char* verb : {"update", "check"}) {
@@ -237,7 +237,7 @@ TEST_F(GoldenCommand, one_update_at_a_time) {
   ::close(folder);
 }
 
-TEST_F(GoldenCommand, bad_input_ends_2) {
+TEST_F(GoldenCommand, BadInputEnds2) {
   EXPECT_EQ(plumb("golden").code, 2);
   EXPECT_EQ(plumb("golden bless").code, 2);
   EXPECT_EQ(golden("check", at("no_such.json")).code, 2);
@@ -249,7 +249,7 @@ TEST_F(GoldenCommand, bad_input_ends_2) {
   EXPECT_EQ(golden("update", "--against exact").code, 2);
 }
 
-TEST_F(GoldenCommand, check_beside_the_references_has_a_row_for_each_stage) {
+TEST_F(GoldenCommand, CheckBesideTheReferencesHasARowForEachStage) {
   const std::string scene = at("suite/coverage/shared_edges.json") + " --golden " + at("golden");
   const Outcome holds = plumb("check " + scene);
   EXPECT_EQ(holds.code, 0) << holds.text;
@@ -279,7 +279,7 @@ bool is_released_within_a_minute(const std::string& goldens) {
 }
 
 // The whole program, killed anywhere between its start and its end. (Where it writes: golden_kill_test.)
-TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
+TEST_F(GoldenCommand, AKilledUpdateLeavesTheOldSetOrTheNewOne) {
   const char* said = std::getenv("PLUMBLINE_KILLS");
   const int kills = said != nullptr ? std::atoi(said) : 2;
   const std::string words[] = {"\"description\": \"", "\"description\": \"Changed. "};
@@ -321,7 +321,7 @@ TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
   fmt::print("{} kills: {} left the old set, {} the new one\n", kills, olds, kills - olds);
 }
 
-TEST_F(GoldenCommand, a_suite_of_a_few_does_not_remove_the_goldens_of_all_others) {
+TEST_F(GoldenCommand, ASuiteOfAFewDoesNotRemoveTheGoldensOfAllOthers) {
   const std::string manifest = test::text_of(PLUMBLINE_SOURCE_DIR "/golden/manifest.json");
   fs::create_directories(folder_ / "whole");
   test::write_text(folder_ / "whole/manifest.json", manifest);

@@ -46,7 +46,7 @@ class Jobs : public Cli {
   }
 };
 
-TEST_F(Jobs, leave_the_same_however_many) {
+TEST_F(Jobs, LeaveTheSameHoweverMany) {
   const std::string scenes = kScenes + "cull " + kScenes + "merge " + kScenes + "scissor";
   const auto one = left_by(scenes, "1", 0), three = left_by(scenes, "3", 0);
   for (const char* name : {"json", "ledger", "junit", "markdown", "rows/cull/closed_mesh.txt", "report/index.html"}) {
@@ -57,13 +57,13 @@ TEST_F(Jobs, leave_the_same_however_many) {
 
 const std::string kFaulty = kScenes + "cull " + kScenes + "merge --fault matrices.viewport_one_short";
 
-TEST_F(Jobs, leave_the_same_failures) {
+TEST_F(Jobs, LeaveTheSameFailures) {
   const auto one = left_by(kFaulty, "1", 1), three = left_by(kFaulty, "3", 1);
   EXPECT_TRUE(one.contains("failures/cull/both_windings/index.html"));
   EXPECT_EQ(apart(one, three), std::vector<std::string>{});
 }
 
-TEST_F(Jobs, end_with_the_first_thing_that_cannot_be_written) {
+TEST_F(Jobs, EndWithTheFirstThingThatCannotBeWritten) {
   fs::create_directories(folder_ / "failures/cull/closed_mesh");
   test::write_text(at("failures/cull/closed_mesh/mine"), "");
   std::string first;

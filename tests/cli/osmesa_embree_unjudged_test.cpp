@@ -6,7 +6,7 @@ namespace {
 
 const std::string kLines = kScenes + "lines/beneath_points.json";  // no ray meets a line or a point
 
-TEST_F(Cli, a_run_that_judges_nothing_ends_2) {
+TEST_F(Cli, ARunThatJudgesNothingEnds2) {
   for (const std::string& by : {std::string(), std::string(" --fault merge.blue_first")}) {
     const Outcome run = plumb("check " + kLines + " --against embree" + by);
     EXPECT_EQ(run.code, 2) << run.text;

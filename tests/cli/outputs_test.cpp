@@ -20,7 +20,7 @@ struct Bad {
   std::string path, reason;
 };
 
-TEST_F(Outputs, without_a_value_are_refused_before_anything_is_written) {
+TEST_F(Outputs, WithoutAValueAreRefusedBeforeAnythingIsWritten) {
   const std::string scene = kScenes + "cull/both_windings.json";
   for (const std::string& words :
        {"check " + scene + " --json= " + at("next"), "check " + scene + " --json --report",
@@ -33,7 +33,7 @@ TEST_F(Outputs, without_a_value_are_refused_before_anything_is_written) {
   EXPECT_EQ(plumb("check " + scene + " --against exact --json=" + at("a=")).code, 0) << "a name that ends so";
 }
 
-TEST_F(Outputs, that_cannot_be_written_end_the_run_before_the_work) {
+TEST_F(Outputs, ThatCannotBeWrittenEndTheRunBeforeTheWork) {
   fs::create_directories(folder_ / "folder.exr/");
   fs::create_directories(folder_ / "folder.png/");
   test::write_text(folder_ / "file", "kept");
@@ -70,7 +70,7 @@ TEST_F(Outputs, that_cannot_be_written_end_the_run_before_the_work) {
   EXPECT_EQ(test::text_of(at("file")), "kept");
 }
 
-TEST_F(Outputs, are_not_empty_names) {
+TEST_F(Outputs, AreNotEmptyNames) {
   for (const char* option : {"--json", "--ledger", "--report", "--fault"}) {
     const Outcome run = plumb(kCheck + " " + option + " ''");
     EXPECT_EQ(run.code, 2) << option << "\n" << run.text;
@@ -85,7 +85,7 @@ TEST_F(Outputs, are_not_empty_names) {
   EXPECT_TRUE(entries().empty());
 }
 
-TEST_F(Outputs, never_overwrite_a_scene_that_is_read_by_any_name_of_it) {
+TEST_F(Outputs, NeverOverwriteASceneThatIsReadByAnyNameOfIt) {
   fs::copy(kBothWindings, folder_ / "scene.json");
   fs::create_symlink("scene.json", folder_ / "link.json");
   fs::create_hard_link(folder_ / "scene.json", folder_ / "hard.txt");
@@ -104,7 +104,7 @@ TEST_F(Outputs, never_overwrite_a_scene_that_is_read_by_any_name_of_it) {
   EXPECT_EQ(entries(), before);
 }
 
-TEST_F(Outputs, never_overwrite_what_else_a_run_reads) {
+TEST_F(Outputs, NeverOverwriteWhatElseARunReads) {
   fs::copy(PLUMBLINE_SOURCE_DIR "/tests/scenes/blend/factors.json", folder_ / "factors.json");
   fs::copy(PLUMBLINE_SOURCE_DIR "/tests/scenes/blend/factors.part.json", folder_ / "factors.part.json");
   test::write_text(folder_ / "expect.json", "{\"expectations\": []}");
@@ -120,7 +120,7 @@ TEST_F(Outputs, never_overwrite_what_else_a_run_reads) {
   EXPECT_EQ(entries(), before);
 }
 
-TEST_F(Outputs, never_overwrite_each_other) {
+TEST_F(Outputs, NeverOverwriteEachOther) {
   fs::create_symlink("a.json", folder_ / "link.json");
   for (const char* other : {"a.json", "./a.json", "link.json"}) {
     const Outcome run = plumb(kCheck + " --json " + at("a.json") + " --ledger " + at(other));
@@ -134,7 +134,7 @@ TEST_F(Outputs, never_overwrite_each_other) {
   EXPECT_EQ(entries(), (Names{"link.json", "page"}));
 }
 
-TEST_F(Outputs, through_a_link_replace_what_it_points_to) {
+TEST_F(Outputs, ThroughALinkReplaceWhatItPointsTo) {
   fs::create_directories(folder_ / "far");
   test::write_text(folder_ / "far/old.json", "old");
   fs::create_symlink("far/old.json", folder_ / "old.json");
@@ -150,7 +150,7 @@ TEST_F(Outputs, through_a_link_replace_what_it_points_to) {
   EXPECT_EQ(read_capture(folder_ / "far/captures").renderer, "ours");
 }
 
-TEST_F(Outputs, of_render_appear_both_or_not_at_all) {
+TEST_F(Outputs, OfRenderAppearBothOrNotAtAll) {
   // A small picture, a large depth.
   const std::string both = "render " + kScenes + "depth/grazing.json -o " + at("c.png") + " --depth ";
   EXPECT_EQ(plumb(both + at("no/such/d.exr")).code, 2);
@@ -169,7 +169,7 @@ TEST_F(Outputs, of_render_appear_both_or_not_at_all) {
   EXPECT_EQ(entries(), (Names{"c.png", "d.exr"}));
 }
 
-TEST_F(Outputs, that_fill_the_disk_leave_nothing_behind) {
+TEST_F(Outputs, ThatFillTheDiskLeaveNothingBehind) {
   const std::string limited = "trap '' XFSZ; ulimit -f 1; " PLUMBLINE_PLUMB " ";
   for (const std::string& arguments : {kCheck + " --json " + at("o.json"), kCheck + " --report " + at("deep/page"),
                                        "capture " + kBothWindings + " " + at("capture"),
@@ -185,7 +185,7 @@ TEST_F(Outputs, that_fill_the_disk_leave_nothing_behind) {
   }
 }
 
-TEST_F(Outputs, capture_and_report_replace_an_empty_folder_and_their_own) {
+TEST_F(Outputs, CaptureAndReportReplaceAnEmptyFolderAndTheirOwn) {
   for (const std::string& command : {"capture " + kBothWindings + " " + at("it"), kCheck + " --report " + at("it")}) {
     fs::create_directories(folder_ / "it");
     EXPECT_EQ(plumb(command).code, 0);
@@ -203,7 +203,7 @@ TEST_F(Outputs, capture_and_report_replace_an_empty_folder_and_their_own) {
   }
 }
 
-TEST_F(Outputs, capture_and_report_leave_other_folders_alone) {
+TEST_F(Outputs, CaptureAndReportLeaveOtherFoldersAlone) {
   const std::string capture = "capture " + kBothWindings + " " + at("it"), report = kCheck + " --report " + at("it");
   const auto refused = [&](const std::string& command, const std::string& why) {
     const Names before = entries();
@@ -234,7 +234,7 @@ TEST_F(Outputs, capture_and_report_leave_other_folders_alone) {
   refused(report, "somebody's page");
 }
 
-TEST_F(Outputs, keep_scenes_of_one_name_apart_and_take_any_name) {
+TEST_F(Outputs, KeepScenesOfOneNameApartAndTakeAnyName) {
   const std::string odd = "a b#c?d%&\"<>'\xff\xfe\xc3\xa4";
   for (const char* top : {"x", "y"}) {
     fs::create_directories(folder_ / top / "cull");

@@ -26,13 +26,13 @@ Tally tally(const Outcome& run, const std::string& feature) {
   return {number(1), number(2), number(3), number(4), number(5), number(6)};
 }
 
-TEST_F(Cli, program_is_handed_an_export_and_judged_by_colour_and_depth) {
+TEST_F(Cli, ProgramIsHandedAnExportAndJudgedByColourAndDepth) {
   const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact --program " + kMine);
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(run.says("2 of 13 stages judged")) << run.text;
 }
 
-TEST_F(Cli, program_that_is_missing_is_refused_before_the_work) {
+TEST_F(Cli, ProgramThatIsMissingIsRefusedBeforeTheWork) {
   for (const std::string& command : {"check " + kSharedEdges, "diagnose " + kSharedEdges, std::string("learn")}) {
     for (const char* program : {"./none_such", "none_such"}) {
       const Outcome run = plumb(command + " --program '" + program + " {serve}'");
@@ -43,7 +43,7 @@ TEST_F(Cli, program_that_is_missing_is_refused_before_the_work) {
   }
 }
 
-TEST_F(Cli, program_of_a_suite_ends_with_a_row_per_feature) {
+TEST_F(Cli, ProgramOfASuiteEndsWithARowPerFeature) {
   std::string groups;
   for (const char* group : {"clip", "coverage", "cull", "depth", "fog"}) groups += " " + kScenes + group;
   const Outcome run = plumb("check" + groups + " --program " + kServer);
@@ -58,7 +58,7 @@ TEST_F(Cli, program_of_a_suite_ends_with_a_row_per_feature) {
 }
 
 // A renderer in double, of its own arithmetic, whose records are in arrays of f32 and f64, without derived columns.
-TEST_F(Cli, program_that_shows_all_its_records_is_right_at_every_stage) {
+TEST_F(Cli, ProgramThatShowsAllItsRecordsIsRightAtEveryStage) {
   for (const char* scene : {"coverage/fan", "clip/corners_on_planes", "light/sphere_gouraud", "depth/functions_z32f"}) {
     const Outcome run = plumb("diagnose " + kScenes + scene + ".json --program " + kRecorder);
     EXPECT_EQ(run.code, 0) << run.text;
@@ -68,7 +68,7 @@ TEST_F(Cli, program_that_shows_all_its_records_is_right_at_every_stage) {
 }
 
 // The page of an earlier run would look like this run's.
-TEST_F(Cli, program_that_fails_leaves_no_page_of_an_earlier_run) {
+TEST_F(Cli, ProgramThatFailsLeavesNoPageOfAnEarlierRun) {
   const auto diagnosed = [&](const std::string& program) {
     return plumb("diagnose " + kSharedEdges + " --report " + at("page") + " --program " + program);
   };
@@ -82,7 +82,7 @@ TEST_F(Cli, program_that_fails_leaves_no_page_of_an_earlier_run) {
 }
 
 // Another file of the program than main()'s refuses the scene.
-TEST_F(Cli, program_of_several_files_may_refuse_a_scene_in_any_of_them) {
+TEST_F(Cli, ProgramOfSeveralFilesMayRefuseASceneInAnyOfThem) {
   const Outcome run =
       plumb("check " + kScenes + "light/reflection_colors.json " + kSharedEdges + " --program " + kRecorder);
   EXPECT_EQ(run.code, 0) << run.text;
@@ -90,14 +90,14 @@ TEST_F(Cli, program_of_several_files_may_refuse_a_scene_in_any_of_them) {
 }
 
 // Browsers and virtual machines reserve more addresses than there is memory.
-TEST_F(Cli, program_is_limited_in_what_it_writes_to_not_in_its_addresses) {
+TEST_F(Cli, ProgramIsLimitedInWhatItWritesToNotInItsAddresses) {
   const Outcome run = plumb("check " + kSharedEdges +
                             " --program 'echo v $(ulimit -v) d $(ulimit -H -d) >&2; exit 77; {input} {output}'");
   EXPECT_TRUE(run.says("v unlimited d ")) << run.text;
   EXPECT_FALSE(run.says("d unlimited")) << run.text;
 }
 
-TEST_F(Cli, program_of_a_course_is_graded_scene_by_scene) {
+TEST_F(Cli, ProgramOfACourseIsGradedSceneByScene) {
   for (const std::string course : {"gl", "games101", "gzrender", "tinyrenderer"}) {
     const std::string scenes = PLUMBLINE_SOURCE_DIR "/tests/homework/" + course;
     const Outcome ours = plumb("check " + scenes);
@@ -115,7 +115,7 @@ TEST_F(Cli, program_of_a_course_is_graded_scene_by_scene) {
   }
 }
 
-TEST_F(Cli, homework_shows_what_a_frame_could_hide) {
+TEST_F(Cli, HomeworkShowsWhatAFrameCouldHide) {
   const auto differs = [&](const std::string& course, const std::string& fault, const std::string& scene) {
     const Outcome run =
         plumb("check " PLUMBLINE_SOURCE_DIR "/tests/homework/" + course + "/" + scene + ".json --fault " + fault);
@@ -129,7 +129,7 @@ TEST_F(Cli, homework_shows_what_a_frame_could_hide) {
   }
 }
 
-TEST_F(Cli, program_may_begin_in_clip_or_window_space) {
+TEST_F(Cli, ProgramMayBeginInClipOrWindowSpace) {
   const std::string diagnose =
       "diagnose " + kScenes + "coverage/fan.json --program 'GIVEN=1 " PLUMBLINE_C_RECORDER " {serve}'";
   const Outcome clip = plumb(diagnose + " --from clip"), window = plumb(diagnose + " --from window");
@@ -143,7 +143,7 @@ TEST_F(Cli, program_may_begin_in_clip_or_window_space) {
   EXPECT_EQ(plumb("check " + kSharedEdges + " --from clip").code, 2) << "of a program alone";
 }
 
-TEST_F(Cli, program_of_each_submission_has_a_row) {
+TEST_F(Cli, ProgramOfEachSubmissionHasARow) {
   for (const auto& [name, line] : {std::pair("ada", PLUMBLINE_C_RENDERER " \"$@\""), std::pair("it's bob", "exit 3")}) {
     std::filesystem::create_directories(folder_ / "all" / name);
     test::write_text(folder_ / "all" / name / "run", line);
@@ -169,7 +169,7 @@ TEST_F(Cli, program_of_each_submission_has_a_row) {
 }
 
 // A known bug, in another program: it is counted over the scenes.
-TEST_F(Cli, program_that_is_wrong_is_told_by_which_known_faults) {
+TEST_F(Cli, ProgramThatIsWrongIsToldByWhichKnownFaults) {
   const std::string check =
       "check " + kScenes + "camera/transform_chain.json " + kScenes + "light/sphere_gouraud.json --program " +
       "'" PLUMBLINE_PLUMB " capture {scene} {output}/all --fault merge.blue_first && mv {output}/all/* {output}'";
@@ -185,7 +185,7 @@ TEST_F(Cli, program_that_is_wrong_is_told_by_which_known_faults) {
 }
 
 // A server that draws its first scene again and again, then one that ends after it: by itself, each scene is right.
-TEST_F(Cli, program_that_keeps_a_state_is_told_so) {
+TEST_F(Cli, ProgramThatKeepsAStateIsToldSo) {
   test::write_text(folder_ / "mine",
                    "#!/bin/sh\n"
                    "kept=$TMPDIR/kept\n"
@@ -214,7 +214,7 @@ TEST_F(Cli, program_that_keeps_a_state_is_told_so) {
       << one.text;
 }
 
-TEST_F(Cli, program_that_draws_no_scene_ends_2) {
+TEST_F(Cli, ProgramThatDrawsNoSceneEnds2) {
   for (const std::string& command :
        {std::string("'sh -c \"echo no fog here >&2; exit 77\" {input} {output}'"), kServer}) {
     const Outcome run = plumb("check " + kScenes + "fog/backwards.json --program " + command);
@@ -224,7 +224,7 @@ TEST_F(Cli, program_that_draws_no_scene_ends_2) {
   }
 }
 
-TEST_F(Cli, program_that_fails_is_a_failed_row) {
+TEST_F(Cli, ProgramThatFailsIsAFailedRow) {
   const Outcome run = plumb("check " + kSharedEdges + " --program 'false {input} {output}'");
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("exited with status 1")) << run.text;
@@ -232,7 +232,7 @@ TEST_F(Cli, program_that_fails_is_a_failed_row) {
 }
 
 // A program that fails alike on every scene: its stderr stands once, and conventions are no explanation.
-TEST_F(Cli, program_that_fails_everywhere_tells_why_once) {
+TEST_F(Cli, ProgramThatFailsEverywhereTellsWhyOnce) {
   const Outcome run = plumb("check " + kSharedEdges + " " + kScenes + "cull/both_windings.json" +
                             " --against exact --program 'echo no such key >&2; exit 3; {input} {output}'");
   EXPECT_EQ(run.code, 1) << run.text;
@@ -243,14 +243,14 @@ TEST_F(Cli, program_that_fails_everywhere_tells_why_once) {
   EXPECT_FALSE(run.says("plumb learn --program")) << run.text;
 }
 
-TEST_F(Cli, program_is_a_line_of_the_shell) {
+TEST_F(Cli, ProgramIsALineOfTheShell) {
   const std::string here = fs::path(PLUMBLINE_C_RENDERER).parent_path().string();
   EXPECT_EQ(plumb("check " + kSharedEdges + " --program 'cd " + here + " && A=1 ./c_renderer {input} {output}'").code,
             0);
   EXPECT_EQ(plumb("check " + kSharedEdges + " --program '" PLUMBLINE_C_RENDERER " {input} {output} && false'").code, 1);
 }
 
-TEST_F(Cli, program_that_leaves_too_much_fails_at_its_scene_alone) {
+TEST_F(Cli, ProgramThatLeavesTooMuchFailsAtItsSceneAlone) {
   test::write_text(folder_ / "mine",
                    "#!/bin/sh\n" PLUMBLINE_C_RENDERER
                    " \"$1\" \"$2\"\n"
@@ -266,7 +266,7 @@ TEST_F(Cli, program_that_leaves_too_much_fails_at_its_scene_alone) {
   EXPECT_EQ(tally(run, "coverage").right, 1);
 }
 
-TEST_F(Cli, program_whose_capture_contradicts_itself_fails) {
+TEST_F(Cli, ProgramWhoseCaptureContradictsItselfFails) {
   const std::string judged = kSharedEdges + " --against exact --program '" PLUMBLINE_PLUMB " capture {scene} {output}",
                     id = "{output}/planes.id.bin";
   for (const char* command : {"check ", "diagnose "}) {
@@ -284,13 +284,13 @@ TEST_F(Cli, program_whose_capture_contradicts_itself_fails) {
   }
 }
 
-TEST_F(Cli, program_that_cannot_draw_a_scene_is_not_diagnosed) {
+TEST_F(Cli, ProgramThatCannotDrawASceneIsNotDiagnosed) {
   const Outcome run = plumb("diagnose " + kScenes + "fog/backwards.json --program " + kMine);
   EXPECT_EQ(run.code, 2) << run.text;
   EXPECT_TRUE(run.says("backwards.json: not judged: the program does not draw it: fog")) << run.text;
 }
 
-TEST_F(Cli, program_wants_a_scene_and_a_folder) {
+TEST_F(Cli, ProgramWantsASceneAndAFolder) {
   for (const char* command : {"./mine", "./mine {input}", "./mine {output}", "./mine {serve} {input}"}) {
     for (const char* of : {"check ", "diagnose "}) {
       const Outcome run = plumb(of + kSharedEdges + " --program '" + command + "'");
@@ -303,7 +303,7 @@ TEST_F(Cli, program_wants_a_scene_and_a_folder) {
   }
 }
 
-TEST_F(Cli, program_takes_placeholders_without_quotes_after_a_program) {
+TEST_F(Cli, ProgramTakesPlaceholdersWithoutQuotesAfterAProgram) {
   const std::pair<const char*, const char*> kRefused[] = {
       {"./mine '{input}' {output}", "expected {input} without quotes, found '{input}'"},
       {"./mine {input} \"{output}\"", "expected {output} without quotes, found \"{output}\""},
@@ -316,7 +316,7 @@ TEST_F(Cli, program_takes_placeholders_without_quotes_after_a_program) {
   }
 }
 
-TEST_F(Cli, program_is_graded) {
+TEST_F(Cli, ProgramIsGraded) {
   test::write_text(at("rubric.json"), R"({"title": "Homework 1", "scenes": {
     "coverage/shared_edges": {"stages": {"depth": 2, "merge": 3}},
     "fog/backwards": {"points": 4, "hint": "Fog goes by the distance from the eye."}}})");
@@ -335,7 +335,7 @@ TEST_F(Cli, program_is_graded) {
 }
 
 // The kit guesses at no other format (CHANGELOG.md).
-TEST_F(Cli, export_of_another_version_is_refused_by_the_kit) {
+TEST_F(Cli, ExportOfAnotherVersionIsRefusedByTheKit) {
   ASSERT_EQ(plumb("export " + kSharedEdges + " " + at("export")).code, 0);
   const std::string manifest = test::text_of(at("export/manifest.json")), version = "\"version\": 1";
   const std::size_t place = manifest.find(version);
@@ -350,7 +350,7 @@ TEST_F(Cli, export_of_another_version_is_refused_by_the_kit) {
   }
 }
 
-TEST_F(Cli, export_writes_the_scene) {
+TEST_F(Cli, ExportWritesTheScene) {
   EXPECT_EQ(plumb("export " + kSharedEdges + " " + at("export")).code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "export" / "meshes.0.positions.bin"));
   const Outcome again = plumb("export " + kScenes + "clip/crowd.json " + at("export"));

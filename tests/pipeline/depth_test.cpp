@@ -199,7 +199,7 @@ TEST(PipelineDepth, GoesThroughTheSnappedOnesWhereTheUnsnappedHaveNoArea) {
   }
 }
 
-TEST(PipelineDepth, GoesThroughTheSnappedOnesWhereTheUnsnappedAreaIsOfTheOtherSign) {
+TEST(PipelineDepth, GoesThroughSnappedOnesWhereTheUnsnappedAreaHasTheOtherSign) {
   for (int side : {-1, 1}) {
     const auto lean = static_cast<float>(side) / 1024;
     Triangle t = with_depths(window_triangle(glm::vec2(0.5f, 0.5f), {8.5f, 0.5f}, {4.5f, 0.5f - lean}), 0, 1, 0.75f);

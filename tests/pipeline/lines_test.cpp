@@ -38,7 +38,7 @@ std::vector<ClipVertex> line(glm::vec4 a, glm::vec4 b, Shading shading = Shading
   return {out.corners.begin(), out.corners.end()};
 }
 
-TEST(PipelineLines, clip_leaves_what_is_inside_as_it_is) {
+TEST(PipelineLines, ClipLeavesWhatIsInsideAsItIs) {
   const auto out = line({-1, 0, 0, 1}, {0.5f, 1, 1, 1});
   ASSERT_EQ(out.size(), 2u);
   EXPECT_EQ(out[0].p_clip, glm::vec4(-1, 0, 0, 1));
@@ -49,7 +49,7 @@ TEST(PipelineLines, clip_leaves_what_is_inside_as_it_is) {
             glm::vec4(0, 1, 0, 0));  // the last provokes
 }
 
-TEST(PipelineLines, clip_cuts_at_each_plane) {
+TEST(PipelineLines, ClipCutsAtEachPlane) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const float side : {-1.0f, 1.0f}) {
       glm::vec4 in(0, 0, 0, 1), out(0, 0, 0, 1);
@@ -70,7 +70,7 @@ TEST(PipelineLines, clip_cuts_at_each_plane) {
   }
 }
 
-TEST(PipelineLines, clip_takes_the_farthest_cut_at_either_end) {
+TEST(PipelineLines, ClipTakesTheFarthestCutAtEitherEnd) {
   // Right at 1/4 and top at 1/2 of the way out: of the first end, the top's.
   const auto v = line({1.5f, 2, 0, 1}, {-0.5f, 0, 0, 1});
   ASSERT_EQ(v.size(), 2u);
@@ -81,7 +81,7 @@ TEST(PipelineLines, clip_takes_the_farthest_cut_at_either_end) {
   EXPECT_NEAR(both[1].p_clip.x, 1, 1e-6);
 }
 
-TEST(PipelineLines, clip_drops_what_is_outside) {
+TEST(PipelineLines, ClipDropsWhatIsOutside) {
   EXPECT_TRUE(line({2, 0, 0, 1}, {3, 5, 0, 1}).empty());    // beyond one plane
   EXPECT_TRUE(line({-3, 0, 0, 1}, {0, 3, 0, 1}).empty());   // across a corner, violating two
   EXPECT_TRUE(line({0, 0, 0, -1}, {1, 0, 0, -2}).empty());  // behind the eye
@@ -89,7 +89,7 @@ TEST(PipelineLines, clip_drops_what_is_outside) {
   EXPECT_TRUE(line({0, 0, 0, 1}, {0, std::numeric_limits<float>::infinity(), 0, 1}).empty());
 }
 
-TEST(PipelineLines, clip_keeps_or_drops_points) {
+TEST(PipelineLines, ClipKeepsOrDropsPoints) {
   const auto kept = [](glm::vec4 p) { return !clipped(Topology::points, {p, {}}).corners.empty(); };
   for (int axis = 0; axis < 3; ++axis) {
     for (const float side : {-1.0f, 1.0f}) {
@@ -105,7 +105,7 @@ TEST(PipelineLines, clip_keeps_or_drops_points) {
   EXPECT_EQ(clipped(Topology::points, {{0, 0, 0, 1}, {}}).corners.size(), 1u);
 }
 
-TEST(PipelineLines, window_neither_culls_nor_drops) {
+TEST(PipelineLines, WindowNeitherCullsNorDrops) {
   Matrices<float> m{};
   m.win_scale = {8, 8, 0.5f};
   m.win_translate = {8, 8, 0.5f};
@@ -146,7 +146,7 @@ std::vector<glm::ivec2> pixels_in(const ShadedTriangle& t, glm::ivec2 origin, in
   return covered_pixels(t, {origin.x, origin.y, origin.x + size, origin.y + size});
 }
 
-TEST(PipelineLines, tiles_split_a_line_without_changing_it) {
+TEST(PipelineLines, TilesSplitALineWithoutChangingIt) {
   for (const glm::vec2 b : {glm::vec2(150.3f, 40.1f), {3.2f, 131.9f}, {140.25f, 130.5f}, {-20, 64}, {64, -9}}) {
     const ShadedTriangle t = window_line({60.7f, 63.4f, 0}, {b, 0});
     std::vector<glm::ivec2> tiled;
@@ -168,7 +168,7 @@ TEST(PipelineLines, tiles_split_a_line_without_changing_it) {
   }
 }
 
-TEST(PipelineLines, a_point_is_the_pixel_that_it_lies_in) {
+TEST(PipelineLines, APointIsThePixelThatItLiesIn) {
   const auto pixels = [](float x, float y) { return pixels_in(window_point({x, y, 0}), {0, 0}, 64); };
   using Pixels = std::vector<glm::ivec2>;
   EXPECT_EQ(pixels(3.5f, 4.5f), (Pixels{{3, 4}}));
@@ -181,7 +181,7 @@ TEST(PipelineLines, a_point_is_the_pixel_that_it_lies_in) {
   EXPECT_EQ(pixels_in(window_point({64, 65, 0}), {64, 64}, 64), (Pixels{{64, 65}}));
 }
 
-TEST(PipelineLines, depth_and_color_go_by_the_projection_onto_the_line) {
+TEST(PipelineLines, DepthAndColorGoByTheProjectionOntoTheLine) {
   // From (2.5, 1.5) along (4, 2), |d|^2 = 20; the pixel above its middle projects 0.1 farther.
   const ShadedTriangle t = window_line({2.5f, 1.5f, 0.25f}, {6.5f, 3.5f, 0.75f});
   const BarycentricPlanes planes = planes_of(t, 0, 0);
@@ -201,7 +201,7 @@ TEST(PipelineLines, depth_and_color_go_by_the_projection_onto_the_line) {
   EXPECT_FLOAT_EQ(color(far, 4, 2).r, 0.75f);
 }
 
-TEST(PipelineLines, a_point_has_its_own_depth_and_color) {
+TEST(PipelineLines, APointHasItsOwnDepthAndColor) {
   const ShadedTriangle t = window_point({2.75f, 1.25f, 0.3f});
   const BarycentricPlanes planes = planes_of(t, 0, 0);
   const Offset<float> at{2, 1};
@@ -211,7 +211,7 @@ TEST(PipelineLines, a_point_has_its_own_depth_and_color) {
   EXPECT_EQ(barycentric(planes_of(nothing, 0, 0), {2, 1, 2.5, 1.5}).l1, 0);
 }
 
-TEST(PipelineLines, records_that_are_not_lines_are_refused) {
+TEST(PipelineLines, RecordsThatAreNotLinesAreRefused) {
   Scene scene;
   Mesh mesh{{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 0, 1}}, {}, {{0, 1, 1}}, Topology::lines};
   scene.meshes = {mesh};

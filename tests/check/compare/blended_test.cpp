@@ -94,7 +94,7 @@ TEST_F(BlendedPairs, AHiddenFragmentWhoseDepthTestIsOpenMayHaveBeenDrawn) {
 
 // Of three fragments at (3, 1) the last leaves its depth, and a draw that writes none wins. The second's depth test is
 // open: had it been drawn, a stencil test might keep the last one out, and the first's depth might stay.
-TEST_F(BlendedPairs, WhereAStencilTestFollowsAnOpenDepthTestAnyFragmentsDepthMayBeLeft) {
+TEST_F(BlendedPairs, AnyFragmentsDepthMayBeLeftWhereAStencilTestFollowsAnOpenOne) {
   const double step = depth_step(scene.frame.depth, 0.5);
   scene.draws.push_back(scene.draws[0]);
   scene.draws[1].merge.depth_mask = false;
@@ -153,7 +153,7 @@ TEST_F(BlendedPairs, ADepthTestIsOpenAgainstWhatAnyEdgeOfTheTriangleMayHold) {
   EXPECT_FALSE(is_open(0.8126));
 }
 
-TEST_F(BlendedPairs, OtherFragmentsAreCoveragesMatterAndALinesColourGoesAlongItsMajorAxis) {
+TEST_F(BlendedPairs, OtherFragmentsAreCoveragesAndALinesColourItsMajorAxiss) {
   const PlaneChange beside = [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r += code(40); };
   scene.meshes[0].topology = Topology::lines;
   EXPECT_TRUE(passes(run(blended(), beside)));
@@ -201,7 +201,7 @@ TEST_F(BlendedPairs, AgainstBoundsHalfACodeBeyondThem) {
   }
 }
 
-TEST_F(BlendedPairs, CodesOfALogicOpAreEqualWhereTheFragmentsCodesAreCertainAndOpenElsewhere) {
+TEST_F(BlendedPairs, CodesOfALogicOpAreEqualWhereTheFragmentsCodesAreCertain) {
   scene.draws[0].merge = Merge{};
   scene.draws[0].merge.logic_op = LogicOp::xor_;
   const auto sources = [&](double codes) {
@@ -215,7 +215,7 @@ TEST_F(BlendedPairs, CodesOfALogicOpAreEqualWhereTheFragmentsCodesAreCertainAndO
   EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r = static_cast<float>(kNaN); })));
 }
 
-TEST_F(BlendedPairs, CodesOfALogicOpAreOpenWhereItReadsAClearColourHalfWayBetweenTwo) {
+TEST_F(BlendedPairs, CodesOfALogicOpAreOpenOverAClearColourHalfWayBetweenTwo) {
   scene.draws[0].merge = Merge{};
   scene.draws[0].merge.logic_op = LogicOp::and_;
   capture.records.shaded.assign(4, Shaded<double>{Vec4<double>(100.25 / 255)});

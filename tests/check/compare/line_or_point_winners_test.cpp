@@ -32,7 +32,7 @@ struct LineOrPointWinners : testing::Test {
   Scene scene;
 };
 
-TEST_F(LineOrPointWinners, of_nearly_one_depth_are_ambiguous) {
+TEST_F(LineOrPointWinners, OfNearlyOneDepthAreAmbiguous) {
   for (const double z : {0.5, 0.55, 0.6}) {
     EXPECT_TRUE(passes(compare(z, 1, 9))) << z;
     EXPECT_TRUE(passes(compare(z, 9, 1))) << z;
@@ -47,7 +47,7 @@ TEST_F(LineOrPointWinners, of_nearly_one_depth_are_ambiguous) {
   EXPECT_TRUE(fails(compare(0.5, 9, 2)));
 }
 
-TEST_F(LineOrPointWinners, depths_that_stay_in_the_frame_excuse_nothing) {
+TEST_F(LineOrPointWinners, DepthsThatStayInTheFrameExcuseNothing) {
   scene.draws[0].merge.depth_mask = false;  // both sides hold the cleared depth, and what is drawn last wins
   EXPECT_TRUE(fails(compare(0.5, 1, 9)));
   EXPECT_TRUE(fails(compare(0.5, 9, 1)));
@@ -56,7 +56,7 @@ TEST_F(LineOrPointWinners, depths_that_stay_in_the_frame_excuse_nothing) {
   EXPECT_TRUE(passes(compare(1 - 0x1p-25, 9, kBackground))) << "the cleared depth, or nearly";
 }
 
-TEST_F(LineOrPointWinners, stencil_values_are_those_of_open_tests) {
+TEST_F(LineOrPointWinners, StencilValuesAreThoseOfOpenTests) {
   scene.frame.stencil = StencilFormat::s8;
   Stencil test;
   test.front.pass = test.back.pass = StencilOp::increment;
@@ -74,7 +74,7 @@ TEST_F(LineOrPointWinners, stencil_values_are_those_of_open_tests) {
   EXPECT_TRUE(passes(against(0.8, 1, 1)));
 }
 
-TEST_F(LineOrPointWinners, alphas_that_fail_are_not_drawn) {
+TEST_F(LineOrPointWinners, AlphasThatFailAreNotDrawn) {
   scene.draws[0].alpha_test = AlphaTest{.func = CompareFunc::greater, .reference = 0.5f};
   Capture mine = with(0.5, 1), theirs = with(0.5, 9);
   mine.records.shaded = {{Vec4<double>(1)}, {Vec4<double>(0.25)}};

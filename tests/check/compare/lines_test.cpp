@@ -19,7 +19,7 @@ Measurement winners(Capture mine, const Capture& theirs) {
   return compare_line_or_point_winners({}, mine, theirs);
 }
 
-TEST(CheckLines, the_same_pixels_are_equal) {
+TEST(CheckLines, TheSamePixelsAreEqual) {
   const Measurement m = lines_compared(kFlatPixels);
   EXPECT_TRUE(passes(m));
   EXPECT_EQ(m.ambiguous, 0u);
@@ -27,7 +27,7 @@ TEST(CheckLines, the_same_pixels_are_equal) {
   EXPECT_EQ(m.items, 16u * 12 + 1);
 }
 
-TEST(CheckLines, what_the_specification_allows_is_ambiguous) {
+TEST(CheckLines, WhatTheSpecificationAllowsIsAmbiguous) {
   for (const Pixels& theirs : {Pixels{{2, 3}, {3, 4}, {4, 4}, {5, 4}},             // a pixel one off
                                Pixels{{2, 2}, {3, 2}, {4, 3}, {5, 3}},             // all one off
                                Pixels{{3, 3}, {4, 4}, {5, 4}},                     // the first lost
@@ -40,7 +40,7 @@ TEST(CheckLines, what_the_specification_allows_is_ambiguous) {
   }
 }
 
-TEST(CheckLines, what_it_does_not_allow_is_different) {
+TEST(CheckLines, WhatItDoesNotAllowIsDifferent) {
   EXPECT_TRUE(fails(lines_compared({{2, 3}, {3, 5}, {4, 4}, {5, 4}})));                  // a pixel two off
   EXPECT_TRUE(fails(lines_compared({{4, 4}, {5, 4}})));                                  // two fewer
   EXPECT_TRUE(fails(lines_compared({{2, 3}, {3, 3}, {4, 4}, {5, 4}, {6, 4}, {7, 4}})));  // two more
@@ -49,7 +49,7 @@ TEST(CheckLines, what_it_does_not_allow_is_different) {
   EXPECT_TRUE(fails(lines_compared({})));
 }
 
-TEST(CheckLines, steep_lines_have_rows_for_columns) {
+TEST(CheckLines, SteepLinesHaveRowsForColumns) {
   const WindowTriangle<double> steep = line_of({3.5, 2.5}, {4.5, 6.5}, 1);
   const Pixels pixels = {{3, 2}, {3, 3}, {4, 4}, {4, 5}};
   const auto against = [&](const Pixels& theirs) {
@@ -60,7 +60,7 @@ TEST(CheckLines, steep_lines_have_rows_for_columns) {
   EXPECT_TRUE(fails(against({{3, 2}, {3, 3}, {4, 3}, {4, 4}, {4, 5}})));
 }
 
-TEST(CheckLines, columns_of_wide_lines_are_whole) {
+TEST(CheckLines, ColumnsOfWideLinesAreWhole) {
   WindowTriangle<double> wide = kFlat;
   wide.width = 3;
   const auto widened = [](const Pixels& lowest, int width = 3) {
@@ -118,7 +118,7 @@ TEST(CheckLines, columns_of_wide_lines_are_whole) {
   EXPECT_TRUE(fails(compare_covered_lines({}, drawn({diagonal}, {columns}), drawn({diagonal}, {rows}), 1)));
 }
 
-TEST(CheckLines, the_candidates_pixels_are_held_to_the_same) {
+TEST(CheckLines, TheCandidatesPixelsAreHeldToTheSame) {
   const auto of = [](const WindowTriangle<double>& line, const Pixels& candidate, const Pixels& reference) {
     return compare_covered_lines({}, drawn({line}, {candidate}), drawn({line}, {reference}), 1);
   };
@@ -144,7 +144,7 @@ TEST(CheckLines, the_candidates_pixels_are_held_to_the_same) {
   EXPECT_TRUE(fails(of(diagonal, stray, drawn_so))) << "whichever axis it goes by";
 }
 
-TEST(CheckLines, edges_of_one_triangle_are_told_apart) {
+TEST(CheckLines, EdgesOfOneTriangleAreToldApart) {
   const WindowTriangle<double> second = line_of({6.5, 4.5}, {6.5, 8.5}, 1);
   const Pixels upright = {{6, 4}, {6, 5}, {6, 6}, {6, 7}};
   const Capture mine = drawn({kFlat, second}, {kFlatPixels, upright});
@@ -155,7 +155,7 @@ TEST(CheckLines, edges_of_one_triangle_are_told_apart) {
   EXPECT_FALSE(passes(compare_covered_lines({}, mine, drawn({kFlat}, {kFlatPixels}), 1)));
 }
 
-TEST(CheckLines, bounds_hold_for_the_place_along_the_major_axis) {
+TEST(CheckLines, BoundsHoldForThePlaceAlongTheMajorAxis) {
   // 1/w falls to a hundredth along a diagonal line: a pixel to its right lies further along by the major axis than by
   // projection, where the same error of 1/w is of a larger share.
   WindowTriangle<double> line = line_of({0.5, 0.5}, {16.5, 15.5}, 1);
@@ -170,7 +170,7 @@ TEST(CheckLines, bounds_hold_for_the_place_along_the_major_axis) {
   EXPECT_GT(far.color.r, 1.5 * near.color.r);
 }
 
-TEST(CheckLines, depths_along_a_line_end_where_the_range_clamps_them) {
+TEST(CheckLines, DepthsAlongALineEndWhereTheRangeClampsThem) {
   WindowTriangle<double> line = line_of({2.5, 2.5}, {6.5, 4.5}, 1);
   line.v[0].p_win.z = 0.5;
   line.v[1].p_win.z = line.v[2].p_win.z = 0.56;
@@ -191,7 +191,7 @@ TEST(CheckLines, depths_along_a_line_end_where_the_range_clamps_them) {
   EXPECT_EQ(depth_limits(DrawIndex(scene), 1).high, 0.75);
 }
 
-TEST(CheckLines, corners_drawn_over_each_other_tie_within_a_step) {
+TEST(CheckLines, CornersDrawnOverEachOtherTieWithinAStep) {
   const auto point = [](double x, double z) {
     WindowTriangle<double> t = line_of({x, 4.5}, {x, 4.5}, 1);
     t.corners = 1;
@@ -206,7 +206,7 @@ TEST(CheckLines, corners_drawn_over_each_other_tie_within_a_step) {
   EXPECT_TRUE(tied_corners(corners, 5, 6, 1.0 / 255).empty()) << "beside their squares";
 }
 
-TEST(CheckLines, other_fragments_may_have_left_the_depth_that_a_winner_leaves) {
+TEST(CheckLines, OtherFragmentsMayHaveLeftTheDepthThatAWinnerLeaves) {
   Scene scene;
   scene.frame.depth = DepthFormat::z32f;
   Capture mine = drawn({kFlat}, {kFlatPixels}), theirs = mine;
@@ -230,7 +230,7 @@ TEST(CheckLines, other_fragments_may_have_left_the_depth_that_a_winner_leaves) {
   EXPECT_FALSE(passes(compare_depth_planes(scene, mine, theirs, 4))) << "of the same fragments";
 }
 
-TEST(CheckLines, where_edges_meet_either_may_have_been_drawn_last) {
+TEST(CheckLines, WhereEdgesMeetEitherMayHaveBeenDrawnLast) {
   const WindowTriangle<double> second = line_of({6.5, 4.5}, {6.5, 8.5}, 1);
   const Records<double> one = drawn({kFlat}, {{}}).records, two = drawn({kFlat, second}, {{}, {}}).records;
   EXPECT_TRUE(edge_values(triangles_of(one, 1), 6, 4).empty()) << "a line alone";
@@ -252,7 +252,7 @@ TEST(CheckLines, where_edges_meet_either_may_have_been_drawn_last) {
   EXPECT_TRUE(fails(compare_depth_planes(scene, mine, theirs, 4)));
 }
 
-TEST(CheckLines, a_line_of_no_pixel_may_have_one_at_its_end) {
+TEST(CheckLines, ALineOfNoPixelMayHaveOneAtItsEnd) {
   const WindowTriangle<double> dot = line_of({3.25, 2.5}, {3.5, 2.75}, 1);
   const auto against = [&](const Pixels& theirs) {
     return compare_covered_lines({}, drawn({dot}, {{}}), drawn({dot}, {theirs}), 1);
@@ -263,7 +263,7 @@ TEST(CheckLines, a_line_of_no_pixel_may_have_one_at_its_end) {
   EXPECT_TRUE(fails(against({{3, 2}, {4, 2}})));
 }
 
-TEST(CheckLines, all_else_must_be_the_same) {
+TEST(CheckLines, AllElseMustBeTheSame) {
   const Capture mine = drawn({kFlat}, {kFlatPixels}, {{3, 3}, {8, 8}});
   EXPECT_TRUE(passes(compare_covered_lines({}, mine, mine, 1)));
   EXPECT_TRUE(fails(compare_covered_lines({}, mine, drawn({kFlat}, {kFlatPixels}, {{3, 3}}), 1)));
@@ -276,7 +276,7 @@ TEST(CheckLines, all_else_must_be_the_same) {
   EXPECT_TRUE(fails(compare_covered_lines({}, mine, other, 1)));
 }
 
-TEST(CheckLines, a_line_that_one_side_lacks_is_different) {
+TEST(CheckLines, ALineThatOneSideLacksIsDifferent) {
   const WindowTriangle<double> second = line_of({2.5, 8.5}, {4.5, 8.5}, 2);
   const Capture one = drawn({kFlat}, {kFlatPixels}), two = drawn({kFlat, second}, {kFlatPixels, {{2, 8}, {3, 8}}});
   EXPECT_TRUE(fails(compare_covered_lines({}, one, two, 1)));
@@ -286,7 +286,7 @@ TEST(CheckLines, a_line_that_one_side_lacks_is_different) {
   EXPECT_NE(winners(one, empty).mismatch, "");
 }
 
-TEST(CheckLines, winners_count_where_both_cover_alike) {
+TEST(CheckLines, WinnersCountWhereBothCoverAlike) {
   const Capture mine = drawn({kFlat}, {kFlatPixels}, {{3, 3}, {3, 4}});
   Capture theirs = drawn({kFlat}, {{{2, 3}, {3, 4}, {4, 4}, {5, 4}}}, {{3, 3}, {3, 4}});
   const Measurement m = winners(mine, theirs);
@@ -300,7 +300,7 @@ TEST(CheckLines, winners_count_where_both_cover_alike) {
   EXPECT_TRUE(passes(winners(drawn({zero}, {kFlatPixels}), drawn({zero}, {{{2, 3}}}))));
 }
 
-TEST(CheckLines, depth_and_color_go_by_the_major_axis_or_by_the_projection) {
+TEST(CheckLines, DepthAndColorGoByTheMajorAxisOrByTheProjection) {
   // Along (4, 2): the pixel above the middle projects to 0.6 of the way; by the major axis it is 0.5.
   WindowTriangle<double> t = line_of({2.5, 1.5}, {6.5, 3.5});
   const PlaneBounds b = bounds_from_origin(t, 4, 3);

@@ -45,7 +45,7 @@ void expect_alike(const History& history, const Scene& scene) {
   }
 }
 
-TEST_F(All, every_fate_by_everyone) {
+TEST_F(All, EveryFateByEveryone) {
   const Scene scene = fates_scene();
   const History history = ask(scene, {1, 1});
   expect_alike(history, scene);
@@ -61,7 +61,7 @@ TEST_F(All, every_fate_by_everyone) {
   EXPECT_EQ(renderers[2].legal[0].primitive, 6);
 }
 
-TEST_F(All, opengl_tells_texels_and_no_level) {
+TEST_F(All, OpenglTellsTexelsAndNoLevel) {
   Scene scene = fates_scene();
   Texture& texture = scene.textures.emplace_back();
   texture.format = TextureFormat::rgba;
@@ -77,7 +77,7 @@ TEST_F(All, opengl_tells_texels_and_no_level) {
 }
 
 // Pixels at the frame's middle and at two quarters of its diagonal: in a run one of most scenes, else all three.
-TEST_F(All, scenes_of_the_suite) {
+TEST_F(All, ScenesOfTheSuite) {
   std::size_t next = 0;
   for (const char* name : {"stencil/everything", "stencil/funcs", "depth/interpenetrating", "depth/functions",
                            "cull/both_windings", "cull/closed_mesh", "scissor/windows", "alpha_test/leaves",
@@ -90,7 +90,7 @@ TEST_F(All, scenes_of_the_suite) {
   }
 }
 
-TEST_F(All, opengl_has_no_depth_of_8_bits) {
+TEST_F(All, OpenglHasNoDepthOf8Bits) {
   Scene scene = fates_scene();
   scene.frame.depth = DepthFormat::z8;
   const History history = ask(scene, {1, 1});
@@ -101,7 +101,7 @@ TEST_F(All, opengl_has_no_depth_of_8_bits) {
   }
 }
 
-TEST_F(All, four_samples_are_told_apart) {
+TEST_F(All, FourSamplesAreToldApart) {
   Scene scene = fates_scene();
   scene.frame.stencil = StencilFormat::none;
   for (Draw& draw : scene.draws) draw.stencil.reset();
@@ -116,7 +116,7 @@ TEST_F(All, four_samples_are_told_apart) {
   EXPECT_EQ(history.resolved[0].color, history.resolved[1].color);
 }
 
-TEST_F(All, no_ray_meets_a_line) {
+TEST_F(All, NoRayMeetsALine) {
   Scene scene = fates_scene();
   scene.meshes[0].topology = Topology::lines;
   const auto renderers = ask(scene, {1, 1}).samples[0].renderers;

@@ -34,7 +34,7 @@ std::vector<Fate> fates(const PixelHistory& history) {
   return out;
 }
 
-TEST_F(HistoryTest, every_fate_happens_in_order_with_its_numbers) {
+TEST_F(HistoryTest, EveryFateHappensInOrderWithItsNumbers) {
   for (const PixelHistory& h : renderers()) {
     SCOPED_TRACE(h.renderer);
     EXPECT_EQ(h.absent, "");
@@ -75,7 +75,7 @@ TEST_F(HistoryTest, every_fate_happens_in_order_with_its_numbers) {
 }
 
 // visibility.drawn is optional: without it the tests say what is drawn, and nothing is said against the frame.
-TEST_F(HistoryTest, where_it_is_not_told_what_is_drawn_the_tests_say) {
+TEST_F(HistoryTest, WhereItIsNotToldWhatIsDrawnTheTestsSay) {
   candidate.on_capture = [](Capture& c) { c.records.drawn.clear(); };
   const std::vector<PixelHistory> both = renderers();
   EXPECT_EQ(fates(both[0]), fates(both[1]));
@@ -85,7 +85,7 @@ TEST_F(HistoryTest, where_it_is_not_told_what_is_drawn_the_tests_say) {
   EXPECT_EQ(both[0].fragments[0].why, both[1].fragments[0].why);
 }
 
-TEST_F(HistoryTest, a_pixel_that_nothing_reaches_has_the_clear_values) {
+TEST_F(HistoryTest, APixelThatNothingReachesHasTheClearValues) {
   for (const PixelHistory& h : renderers({7, 7})) {
     EXPECT_TRUE(h.fragments.empty() && h.lacks.empty() && h.notes.empty()) << h.renderer;
     EXPECT_EQ(*h.depth, 1);
@@ -93,7 +93,7 @@ TEST_F(HistoryTest, a_pixel_that_nothing_reaches_has_the_clear_values) {
   }
 }
 
-TEST_F(HistoryTest, blending_goes_over_what_is_there) {
+TEST_F(HistoryTest, BlendingGoesOverWhatIsThere) {
   scene.draws[6].merge.blend.emplace();
   for (const PixelHistory& h : renderers()) {
     EXPECT_EQ(h.fragments[0].why, "depth 12582911 < 16777215; primitive 6 is blended with it") << h.renderer;
@@ -101,7 +101,7 @@ TEST_F(HistoryTest, blending_goes_over_what_is_there) {
 }
 
 // 16 texels over 8 pixels: two a pixel, the level is log2(2).
-TEST_F(HistoryTest, texture_and_varyings_are_told_where_the_draw_has_them) {
+TEST_F(HistoryTest, TextureAndVaryingsAreToldWhereTheDrawHasThem) {
   Texture& texture = scene.textures.emplace_back();
   texture.format = TextureFormat::rgba;
   set_levels(texture, {16, 16, std::vector<glm::vec4>(256, glm::vec4(1, 0, 0, 1))});
@@ -127,7 +127,7 @@ TEST_F(HistoryTest, texture_and_varyings_are_told_where_the_draw_has_them) {
 }
 
 // The fault's fragment is drawn where exact's dies, and its own numbers say that it should not be.
-TEST_F(HistoryTest, a_fault_shows_another_fate_than_exact) {
+TEST_F(HistoryTest, AFaultShowsAnotherFateThanExact) {
   struct Case {
     const char* fault;
     std::size_t primitive;
@@ -153,7 +153,7 @@ TEST_F(HistoryTest, a_fault_shows_another_fate_than_exact) {
   }
 }
 
-TEST_F(HistoryTest, what_the_frame_holds_beside_what_the_fragments_leave) {
+TEST_F(HistoryTest, WhatTheFrameHoldsBesideWhatTheFragmentsLeave) {
   const std::vector<PixelHistory> both =
       with_fault("visibility.stencil_ops_swapped");  // depth's failure keeps the value
   ASSERT_EQ(both[0].notes.size(), 1u);
@@ -161,7 +161,7 @@ TEST_F(HistoryTest, what_the_frame_holds_beside_what_the_fragments_leave) {
   EXPECT_TRUE(both[1].notes.empty());
 }
 
-TEST_F(HistoryTest, a_fragment_that_passes_and_is_not_drawn_is_discarded) {
+TEST_F(HistoryTest, AFragmentThatPassesAndIsNotDrawnIsDiscarded) {
   candidate.on_capture = [](Capture& c) {
     if (!c.records.drawn.empty()) c.records.drawn.back().drawn = false;
   };
@@ -173,7 +173,7 @@ TEST_F(HistoryTest, a_fragment_that_passes_and_is_not_drawn_is_discarded) {
   EXPECT_EQ(both[0].notes[0], "by its fragments the winner is 0, by its frame 6");
 }
 
-TEST_F(HistoryTest, what_is_not_told_is_said_with_its_reason) {
+TEST_F(HistoryTest, WhatIsNotToldIsSaidWithItsReason) {
   candidate.on_info = [](RendererInfo& info) { info[Stage::coverage] = {false, false, "made of fog"}; };
   candidate.on_capture = [](Capture& c) {
     c.records = {};
@@ -195,7 +195,7 @@ TEST_F(HistoryTest, what_is_not_told_is_said_with_its_reason) {
   EXPECT_EQ(renderers()[1].absent, "");
 }
 
-TEST_F(HistoryTest, pixels_beyond_the_frame_are_refused_with_its_size) {
+TEST_F(HistoryTest, PixelsBeyondTheFrameAreRefusedWithItsSize) {
   for (const glm::ivec2 p : {glm::ivec2(8, 0), glm::ivec2(0, 8), glm::ivec2(-1, 0), glm::ivec2(0, -1)}) {
     try {
       ask(p);
@@ -207,7 +207,7 @@ TEST_F(HistoryTest, pixels_beyond_the_frame_are_refused_with_its_size) {
 }
 
 // Four samples are four passes; 3 x 3 are nine pixels of one.
-TEST_F(HistoryTest, an_antialiased_pixel_has_a_history_for_each_sample) {
+TEST_F(HistoryTest, AnAntialiasedPixelHasAHistoryForEachSample) {
   scene.frame.antialias.kind = Antialias::Kind::multisample;
   History history = ask();
   ASSERT_EQ(history.samples.size(), 4u);
@@ -230,7 +230,7 @@ TEST_F(HistoryTest, an_antialiased_pixel_has_a_history_for_each_sample) {
   EXPECT_EQ(*history.resolved[0].color, glm::vec4(0, 0, 1, 1));
 }
 
-TEST_F(HistoryTest, text_and_json_carry_it) {
+TEST_F(HistoryTest, TextAndJsonCarryIt) {
   const History history = ask();
   const std::string text = report::history_text(scene, history), json = report::history_json(scene, history);
   EXPECT_TRUE(text.starts_with("pixel 1,1 of 8 x 8, rows from the bottom\n")) << text;

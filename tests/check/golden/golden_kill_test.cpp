@@ -47,7 +47,7 @@ Update update_of(float shade) {
 }
 
 // PLUMBLINE_KILLS: how many, 30 where it is not said.
-TEST(GoldenKill, leaves_the_old_set_or_the_new_one) {
+TEST(GoldenKill, LeavesTheOldSetOrTheNewOne) {
   const char* said = std::getenv("PLUMBLINE_KILLS");
   const int kills = said != nullptr ? std::atoi(said) : 30;
   // A folder in memory, if that is free: a disk takes long to sync, and most kills would find it at that.

@@ -59,7 +59,7 @@ class Goldens : public testing::Test {
   std::unique_ptr<Renderer> ours_ = pipeline::make_pipeline();
 };
 
-TEST(golden_hash, every_bit_counts) {
+TEST(golden_hash, EveryBitCounts) {
   const auto of = [](float value) {
     Hasher hasher;
     hasher.add_value(value);
@@ -73,7 +73,7 @@ TEST(golden_hash, every_bit_counts) {
   EXPECT_EQ(to_string(hash_of("")), "99aa06d3014798d86001c324468d497f");
 }
 
-TEST(golden_hash, text_is_32_digits_and_nothing_else) {
+TEST(golden_hash, TextIs32DigitsAndNothingElse) {
   const Hash hash = hash_of("plumbline");
   EXPECT_EQ(parse_hash(to_string(hash)), hash);
   for (const char* bad : {"", "0", "99aa06d3014798d86001c324468d497", "99aa06d3014798d86001c324468d497f0",
@@ -82,7 +82,7 @@ TEST(golden_hash, text_is_32_digits_and_nothing_else) {
   }
 }
 
-TEST_F(Goldens, scene_hash_sees_the_file_what_it_includes_meshes_and_texels) {
+TEST_F(Goldens, SceneHashSeesTheFileWhatItIncludesMeshesAndTexels) {
   const auto write = [&](const std::string& name, const std::string& text) { write_file(folder_ / name, text); };
   const auto hash = [&] { return scene_hash(load_scene(folder_ / "a.json")); };
   write("a.json", R"({"include": ["b.part.json"], "description": "d", "textures": {"t": {"image": {"file": "t.png"}}},
@@ -104,7 +104,7 @@ TEST_F(Goldens, scene_hash_sees_the_file_what_it_includes_meshes_and_texels) {
 }
 
 // One scene of each pair of formats that the suite has.
-TEST_F(Goldens, files_hold_every_format_without_loss) {
+TEST_F(Goldens, FilesHoldEveryFormatWithoutLoss) {
   std::set<std::string> seen;
   for (const fs::path& file : suite_files()) {
     if (file.parent_path().stem() == "models") continue;
@@ -120,7 +120,7 @@ TEST_F(Goldens, files_hold_every_format_without_loss) {
   EXPECT_EQ(seen, (std::set<std::string>{"rgba8", "rgba12", "rgba16", "rgba32f", "z8", "z16", "z24", "z32f"}));
 }
 
-TEST_F(Goldens, images_of_other_channels_or_numbers_are_refused) {
+TEST_F(Goldens, ImagesOfOtherChannelsOrNumbersAreRefused) {
   const auto stored = [&](const std::string& name, const std::string& bytes) {
     write_file(folder_ / name, bytes);
     return read_stored(folder_ / name);
@@ -136,7 +136,7 @@ TEST_F(Goldens, images_of_other_channels_or_numbers_are_refused) {
   EXPECT_THROW(frame_depth("a.png", codes, DepthFormat::z16), ImageError);
 }
 
-TEST_F(Goldens, a_last_bit_of_colour_of_depth_or_of_a_stage_is_told) {
+TEST_F(Goldens, ALastBitOfColourOfDepthOrOfAStageIsTold) {
   for (const char* name : {"cull/both_windings.json", "frame/rgba16.json", "frame/one_pixel_float.json"}) {
     const Scene scene = load_scene(suite_folder() / name);
     const Fingerprint drawn = fingerprint(scene, *ours_);
@@ -181,7 +181,7 @@ class Broken : public Renderer {
   Capture capture(const Scene&, const Request&) override { throw RendererFailed("it fell over"); }
 };
 
-TEST_F(Goldens, a_renderer_that_fails_is_a_difference_not_the_end) {
+TEST_F(Goldens, ARendererThatFailsIsADifferenceNotTheEnd) {
   const Scene scene = suite_scene("cull/both_windings");
   bless(scene, fingerprint(scene, *ours_));
   Broken broken;
@@ -206,7 +206,7 @@ class OtherwiseUnwatched : public Renderer {
   std::unique_ptr<Renderer> ours_ = pipeline::make_pipeline();
 };
 
-TEST_F(Goldens, the_picture_is_the_one_that_is_drawn_unwatched) {
+TEST_F(Goldens, ThePictureIsTheOneThatIsDrawnUnwatched) {
   for (const char* name : {"clip/behind_eye.json", "antialias/samples_cut.json"}) {
     const Scene scene = load_scene(suite_folder() / name, {});
     bless(scene, fingerprint(scene, *ours_));
@@ -221,14 +221,14 @@ TEST_F(Goldens, the_picture_is_the_one_that_is_drawn_unwatched) {
   }
 }
 
-TEST_F(Goldens, the_golden_is_no_judge) {
+TEST_F(Goldens, TheGoldenIsNoJudge) {
   SceneVerdict verdict{"group/scene", "", {judged("group/scene", {"golden", Kind::golden}, Stage::light, {})}, 0};
   EXPECT_EQ(std::ranges::count(unjudged_stages(verdict), Stage::light), 1);
   verdict.comparisons.push_back(judged("group/scene", "exact", Stage::light, {}));
   EXPECT_EQ(std::ranges::count(unjudged_stages(verdict), Stage::light), 0);
 }
 
-TEST_F(Goldens, minus_zero_is_not_zero) {
+TEST_F(Goldens, MinusZeroIsNotZero) {
   Scene scene = suite_scene("cull/both_windings");
   scene.frame.color = ColorFormat::rgba32f;
   Fingerprint drawn = fingerprint(scene, *ours_);
@@ -252,7 +252,7 @@ SceneVerdict agreeing() {
   return out;
 }
 
-TEST_F(Goldens, a_set_begins_in_an_empty_folder_and_leaves_other_sets_alone) {
+TEST_F(Goldens, ASetBeginsInAnEmptyFolderAndLeavesOtherSetsAlone) {
   const Scene scene = suite_scene("cull/both_windings");
   const Fingerprint drawn = fingerprint(scene, *ours_);
   bless(scene, drawn);
@@ -274,7 +274,7 @@ TEST_F(Goldens, a_set_begins_in_an_empty_folder_and_leaves_other_sets_alone) {
   EXPECT_FALSE(compare_golden(scene, *ours_, GoldenSet(folder_ / "golden/inner", GoldenSet::Access::read)).any());
 }
 
-TEST_F(Goldens, a_name_that_could_not_be_read_is_not_written) {
+TEST_F(Goldens, ANameThatCouldNotBeReadIsNotWritten) {
   Scene scene = suite_scene("cull/both_windings");
   const Fingerprint drawn = fingerprint(scene, *ours_);
   for (const char* name : {"group/.", "group/..", "../scene", "/scene", "", "group//scene"}) {
@@ -284,7 +284,7 @@ TEST_F(Goldens, a_name_that_could_not_be_read_is_not_written) {
   }
 }
 
-TEST(golden_vouch, three_references_that_agree_vouch_and_nothing_less) {
+TEST(golden_vouch, ThreeReferencesThatAgreeVouchAndNothingLess) {
   const std::vector<std::string> asked = {"osmesa", "embree", "exact"};
   const Vouch all = vouch(agreeing(), "ours", asked);
   EXPECT_TRUE(all.refusals.empty());
@@ -298,7 +298,7 @@ TEST(golden_vouch, three_references_that_agree_vouch_and_nothing_less) {
   EXPECT_FALSE(vouch(agreeing(), "embree", asked).refusals.empty()) << "the code under test cannot vouch for itself";
 }
 
-TEST(golden_vouch, any_failure_refuses_and_says_why) {
+TEST(golden_vouch, AnyFailureRefusesAndSaysWhy) {
   const std::vector<std::string> asked = {"osmesa", "embree", "exact"};
   for (const Outcome outcome : {Outcome::different, Outcome::missing, Outcome::failed}) {
     SceneVerdict verdict = agreeing();
@@ -310,7 +310,7 @@ TEST(golden_vouch, any_failure_refuses_and_says_why) {
   }
 }
 
-TEST(golden_vouch, a_stage_that_nobody_judges_or_that_is_only_disputed_refuses) {
+TEST(golden_vouch, AStageThatNobodyJudgesOrThatIsOnlyDisputedRefuses) {
   const std::vector<std::string> asked = {"osmesa", "embree", "exact"};
   for (const Outcome outcome : {Outcome::unsupported, Outcome::dispute}) {
     SceneVerdict verdict = agreeing();
@@ -328,7 +328,7 @@ TEST(golden_vouch, a_stage_that_nobody_judges_or_that_is_only_disputed_refuses) 
   EXPECT_EQ(vouch(verdict, "ours", asked).refusals, std::vector<std::string>{"light: nobody judges it"});
 }
 
-TEST(golden_vouch, disputes_are_listed) {
+TEST(golden_vouch, DisputesAreListed) {
   SceneVerdict verdict = agreeing();
   verdict.comparisons[10].outcome = Outcome::dispute;
   Measurement& m = verdict.comparisons[10].measurement;
@@ -339,7 +339,7 @@ TEST(golden_vouch, disputes_are_listed) {
             std::vector<std::string>{"osmesa, merge: 3 of 96: why"});
 }
 
-TEST(golden_folder, has_a_golden_for_each_scene_and_nothing_else_under_20_MiB) {
+TEST(golden_folder, HasAGoldenForEachSceneAndNothingElseUnder20MiB) {
   const GoldenSet set(kGoldens, GoldenSet::Access::read);
   std::set<std::string> scenes, goldens;
   for (const fs::path& file : suite_files())

@@ -24,7 +24,7 @@ namespace plumbline {
 
 namespace {
 
-TEST(Faults, there_are_five_in_each_stage_and_twenty_that_others_report) {
+TEST(Faults, ThereAreFiveInEachStageAndTwentyThatOthersReport) {
   std::map<Stage, int> count;
   std::set<std::string_view> names;
   int reported = 0;
@@ -40,7 +40,7 @@ TEST(Faults, there_are_five_in_each_stage_and_twenty_that_others_report) {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) EXPECT_GE(count[static_cast<Stage>(i)], 5) << kStageNames[i];
 }
 
-TEST(Faults, are_as_many_as_the_readme_says) {
+TEST(Faults, AreAsManyAsTheReadmeSays) {
   const std::string text = test::text_of(PLUMBLINE_SOURCE_DIR "/tests/README.md");
   const auto reported = std::ranges::count_if(faults::of_stages(), [](const auto& f) { return !f.report.empty(); });
   const std::size_t all = faults::all().size(), of_stages = faults::of_stages().size();
@@ -57,7 +57,7 @@ matrix::Subject subject_of(std::string_view name) {
 }
 
 // Geometry, pixels, records alone and what is resolved; and nothing where it is not asked for.
-TEST(FaultMatrix, a_fault_affects_the_scenes_that_it_changes) {
+TEST(FaultMatrix, AFaultAffectsTheScenesThatItChanges) {
   const std::vector<Scene> scenes = {suite_scene("coverage/shared_edges"), suite_scene("antialias/supersample_3"),
                                      suite_scene("light/flat_sphere")};
   const std::vector<matrix::Subject> subjects = {
@@ -75,7 +75,7 @@ TEST(FaultMatrix, a_fault_affects_the_scenes_that_it_changes) {
   EXPECT_EQ(matrix::affected(scenes, subjects, 1, 1)[1], (L{0}));
 }
 
-TEST(FaultMatrix, right_is_the_stage_and_no_other) {
+TEST(FaultMatrix, RightIsTheStageAndNoOther) {
   using S = std::vector<Stage>;
   const matrix::Subject fault{"", {}, {Stage::depth}}, pair{"", {}, {Stage::light, Stage::depth}}, legal{"", {}, {}};
   const auto answer = [](std::optional<Stage> first, S wrong, std::string failed = "") {
@@ -94,7 +94,7 @@ TEST(FaultMatrix, right_is_the_stage_and_no_other) {
   EXPECT_FALSE(is_right(answer(std::nullopt, {Stage::depth}), legal));
 }
 
-TEST(FaultMatrix, what_must_hold) {
+TEST(FaultMatrix, WhatMustHold) {
   const matrix::Answer right{0, "a row", Stage::depth, {Stage::depth}, ""}, not_seen{0, "", {}, {}, ""};
   const matrix::Subject depth{"", {}, {Stage::depth}};
   matrix::Matrix m;
@@ -112,7 +112,7 @@ TEST(FaultMatrix, what_must_hold) {
   EXPECT_FALSE(holds(shares(m))) << "an alarm";
 }
 
-TEST(FaultMatrix, the_sample_is_spread) {
+TEST(FaultMatrix, TheSampleIsSpread) {
   const matrix::SceneList six = {0, 2, 4, 6, 8, 10};
   EXPECT_EQ(matrix::spread(six, 3), (matrix::SceneList{0, 4, 8}));
   EXPECT_EQ(matrix::spread(six, 9), six);

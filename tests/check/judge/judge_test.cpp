@@ -199,7 +199,7 @@ TEST_F(Judge, FragmentsBeyondTheBudgetAreUnsupportedTheRestIsJudged) {
   EXPECT_EQ(results.at({"witness", Stage::merge}).outcome, Outcome::equal);
 }
 
-TEST_F(Judge, OfMoreFragmentsThanGivenNoneIsRecordedAndNoFrameOfLegalAnswersAskedFor) {
+TEST_F(Judge, OfMoreFragmentsThanGivenNothingIsRecordedOrAskedFor) {
   const auto judged_up_to = [&](std::uint64_t most) {
     std::size_t recorded = 0, legal = 0;
     candidate.before_capture = [&](const Request& r) { recorded += r.records.has(Stage::depth) ? 1 : 0; };
@@ -216,7 +216,7 @@ TEST_F(Judge, OfMoreFragmentsThanGivenNoneIsRecordedAndNoFrameOfLegalAnswersAske
   EXPECT_EQ(judged_up_to(fragments - 1), std::pair(std::size_t{0}, std::size_t{0}));
 }
 
-TEST_F(Judge, ACandidateBeyondEveryBudgetEndsTheSceneBeforeAReferenceDrawsIt) {
+TEST_F(Judge, ACandidateBeyondEveryBudgetEndsTheSceneBeforeAReferenceDraws) {
   bool asked = false;
   candidate.before_capture = [](auto&) { throw OverBudget("too large"); };
   witness.before_capture = [&](auto&) { asked = true; };

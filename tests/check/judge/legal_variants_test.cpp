@@ -27,7 +27,7 @@ bool same_picture(const pipeline::Frame& a, const pipeline::Frame& b) {
 class LegalVariants : public testing::TestWithParam<faults::Variant> {};
 
 // Each variant on two scenes that it applies to, not all on the same ones. (The fault matrix takes more.)
-TEST_P(LegalVariants, raises_nothing) {
+TEST_P(LegalVariants, RaisesNothing) {
   const faults::Variant& variant = GetParam();
   pipeline::Stages stages = pipeline::production_stages();
   if (variant.apply != nullptr) variant.apply(stages);
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(all, LegalVariants,
                          testing::ValuesIn(faults::legal_variants().begin(), faults::legal_variants().end()),
                          [](const auto& variant) { return std::string(variant.param.name); });
 
-TEST(LegalVariants, what_a_folder_holds_is_judged_as_what_was_drawn) {
+TEST(LegalVariants, WhatAFolderHoldsIsJudgedAsWhatWasDrawn) {
   const Scene scene = suite_scene("clip/behind_eye");
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();

@@ -27,7 +27,7 @@ class Suite : public testing::Test {
   }
 };
 
-TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
+TEST_F(Suite, HoldsEverySceneAndMoreThanAThousandComparisons) {
   const report::CheckRun run = all();
   std::set<std::filesystem::path> judged;
   std::size_t comparisons = 0;
@@ -46,7 +46,7 @@ TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
   EXPECT_GE(comparisons, 10'000u);
 }
 
-TEST_F(Suite, uses_every_row_of_the_ledger_and_none_is_loose) {
+TEST_F(Suite, UsesEveryRowOfTheLedgerAndNoneIsLoose) {
   const report::CheckRun run = all();
   for (const check::LedgerUse& use : check::ledger_use(run.verdicts)) {
     ASSERT_GE(use.largest_ratio, 0) << name_of(*use.row) << ": no comparison uses the row";

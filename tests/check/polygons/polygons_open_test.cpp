@@ -25,7 +25,7 @@ struct OpenPolygons : Polygons {
 };
 
 // Corners on a line, and two equal ones; both are cut by the right plane.
-TEST_F(OpenPolygons, AForeignTriangleWithoutAreaMayHaveAnyPolygonAlongItselfOrNone) {
+TEST_F(OpenPolygons, AForeignTriangleWithoutAreaMayHaveAnyPolygonAlongItself) {
   for (const glm::dvec4 last : {glm::dvec4(2, 0, 0, 1), glm::dvec4(3, 0.5, 0.25, 1)}) {
     set({{{0, -1, -0.5, 1}, {3, 0.5, 0.25, 1}, last}});
     const auto drop = [](auto& r) { r.polygons = {}; };
@@ -46,7 +46,7 @@ TEST_F(OpenPolygons, AForeignTriangleWithoutAreaMayHaveAnyPolygonAlongItselfOrNo
 }
 
 // Triangle of clip/along_the_far_plane, cut in float near, then far: the far cut slides along the triangle by 2.9.
-TEST_F(OpenPolygons, AForeignTriangleWithoutAreaAlongAPlaneMayBeCutAnywhereAlongIt) {
+TEST_F(OpenPolygons, AForeignTriangleWithoutAreaMayBeCutAnywhereAlongAPlane) {
   set({{{0.000419555872, 0.000891741831, 4.8107028, 4.81038427},
         {-0.00045310898, 0.000629942399, 6.30261087, 6.30219269},
         {0.877657175, 0.118457153, -4688.51025, -4688.19775}}});

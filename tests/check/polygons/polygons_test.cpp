@@ -368,7 +368,7 @@ TEST_F(Polygons, NorMayOneAppearThatLiesBeyondThePlane) {
 
 // A field of view of 179.9 degrees: an edge of 4700 runs along the far plane 0.0003 away. Float leaves little of that,
 // and the cut slides by a seventh of its w: of two neighbours that coincide (within 8 u of 4700) on one side alone.
-TEST_F(Polygons, ACutThatSlidesAlongAParallelEdgeMayPartNeighboursThatCoincide) {
+TEST_F(Polygons, ACutThatSlidesAlongAParallelEdgeMayPartNeighbours) {
   set({{{0.0004195558722130954, 0.000891741830855608, 4.810702800750732, 4.810384273529053},
         {-0.00045310897985473275, 0.0006299423985183239, 6.302610397338867, 6.302192687988281},
         {0.8776571750640869, 0.11845716089010239, -4688.509765625, -4688.19775390625}}});

@@ -18,7 +18,7 @@ bool is_known(const std::string& fault, const Conventions& conventions) {
   return std::ranges::find(known, fault, &KnownFault::name) != known.end();
 }
 
-TEST(KnownFaults, OfOrdersOfRowsAndRangesOfDepthsAreNoneWhereConventionsTellThese) {
+TEST(KnownFaults, AreNoneOfRowsAndDepthRangesThatConventionsTell) {
   Conventions learned, open;
   open.open = {"rows", "depth_range"};
   for (const char* fault : {"file.rows_reversed", "window.y_flipped", "file.depth_of_ndc", "file.depth_reversed"}) {

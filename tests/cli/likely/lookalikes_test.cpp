@@ -45,14 +45,14 @@ check::Comparison row(const check::JudgeId& judge, Stage stage, std::vector<glm:
   return check::judged("scene", judge, stage, std::move(m));
 }
 
-TEST(Lookalikes, none_of_the_right_frame) {
+TEST(Lookalikes, NoneOfTheRightFrame) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   const Lookalikes found = lookalikes(scene, drawn(scene, ""));
   EXPECT_EQ(found.apart, 0u);
   EXPECT_EQ(found.likely, "");
 }
 
-TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
+TEST(Lookalikes, NameTheFaultThatDrawsTheFrame) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   for (const char* fault : {"attributes.next_corner", "attributes.corner_before", "attributes.wrong_corners",
                             "attributes.first_corners_swapped", "attributes.last_corners_swapped", "attributes.affine",
@@ -65,7 +65,7 @@ TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
 }
 
 // Gamma 1/2.2 and sRGB are more than a code apart in dark colours.
-TEST(Lookalikes, know_arrays_and_encodings_that_a_file_may_hold) {
+TEST(Lookalikes, KnowArraysAndEncodingsThatAFileMayHold) {
   const Scene square = scene_of("depth/ties_less.json"), ramp = scene_of("interpolation/w_ratio.json");
   ASSERT_EQ(square.frame.width, square.frame.height);
   const GivenFrame right = drawn(square, "");
@@ -82,7 +82,7 @@ TEST(Lookalikes, know_arrays_and_encodings_that_a_file_may_hold) {
 }
 
 // Depths between snapped corners, or of another arithmetic, are a little off everywhere.
-TEST(Lookalikes, count_by_colour_alone_where_depths_are_like_no_faults) {
+TEST(Lookalikes, CountByColourAloneWhereDepthsAreLikeNoFaults) {
   const Scene scene = scene_of("light/sphere_gouraud.json");
   for (const char* fault : {"window.y_flipped", "light.ambient_per_light"}) {
     GivenFrame given = drawn(scene, fault);
@@ -94,7 +94,7 @@ TEST(Lookalikes, count_by_colour_alone_where_depths_are_like_no_faults) {
   }
 }
 
-TEST(Lookalikes, alpha_that_is_not_written_is_told_where_there_is_one) {
+TEST(Lookalikes, AlphaThatIsNotWrittenIsToldWhereThereIsOne) {
   const Scene scene = scene_of("interpolation/alpha_of_one_corner.json");
   GivenFrame given = drawn(scene, "merge.truncated");
   for (glm::vec4& color : given.color.values()) color.a = scene.frame.clear_color.a;
@@ -104,7 +104,7 @@ TEST(Lookalikes, alpha_that_is_not_written_is_told_where_there_is_one) {
   EXPECT_EQ(lookalikes(scene, given).likely, "merge (fault merge.truncated)");
 }
 
-TEST(Lookalikes, samples_off_the_centre_are_so_to_every_side) {
+TEST(Lookalikes, SamplesOffTheCentreAreSoToEverySide) {
   const Scene scene = scene_of("coverage/fan.json");
   for (const auto& [by, side] :
        {std::pair(glm::dvec2(0.5, 0.5), "right and up\n"), {glm::dvec2(0, -0.5), "far down\n"}}) {
@@ -118,7 +118,7 @@ TEST(Lookalikes, samples_off_the_centre_are_so_to_every_side) {
 }
 
 // Either alone leaves more than a tenth of the pixels.
-TEST(Lookalikes, of_two_faults_at_once_both_are_named_in_the_stages_order) {
+TEST(Lookalikes, OfTwoFaultsAtOnceBothAreNamedInTheStagesOrder) {
   const Scene scene = scene_of("coverage/fan.json");
   const std::vector<std::string> faults = {"depth.one_per_triangle", "coverage.last_row_lost"};
   Request request;
@@ -132,7 +132,7 @@ TEST(Lookalikes, of_two_faults_at_once_both_are_named_in_the_stages_order) {
   EXPECT_FALSE(lookalikes(scene, drawn(scene, "coverage.last_row_lost")).together);
 }
 
-TEST(Lookalikes, what_no_two_faults_draw_is_not_named) {
+TEST(Lookalikes, WhatNoTwoFaultsDrawIsNotNamed) {
   const Scene scene = scene_of("coverage/six_orders.json");
   GivenFrame given = drawn(scene, "attributes.affine");
   mark(given, given.color.size() / 2);
@@ -143,7 +143,7 @@ TEST(Lookalikes, what_no_two_faults_draw_is_not_named) {
 }
 
 // Two faults that exchange red and blue: of a triangle with a red, a green and a blue corner.
-TEST(Lookalikes, of_several_stages_that_draw_one_frame_all_are_named) {
+TEST(Lookalikes, OfSeveralStagesThatDrawOneFrameAllAreNamed) {
   Scene scene = scene_of("interpolation/ramps.json");
   Mesh& mesh = scene.meshes[0];
   mesh.triangles.resize(1);
@@ -157,7 +157,7 @@ TEST(Lookalikes, of_several_stages_that_draw_one_frame_all_are_named) {
   EXPECT_GT(causes.size(), 1u) << found.text;
 }
 
-TEST(Lookalikes, an_empty_frame_is_as_by_any_stage) {
+TEST(Lookalikes, AnEmptyFrameIsAsByAnyStage) {
   const Scene scene = scene_of("coverage/fan.json");
   Capture left;
   left.planes.color = Plane<glm::vec4>(scene.frame.width, scene.frame.height, scene.frame.clear_color);
@@ -166,7 +166,7 @@ TEST(Lookalikes, an_empty_frame_is_as_by_any_stage) {
   EXPECT_TRUE(likely_faults(scene, left, {}, {}).empty());
 }
 
-TEST(Lookalikes, a_picture_one_pixel_off_is_so_to_every_side) {
+TEST(Lookalikes, APictureOnePixelOffIsSoToEverySide) {
   const Scene scene = scene_of("coverage/fan.json");
   const GivenFrame right = drawn(scene, "");
   for (const auto& [by, says] : {std::pair(glm::ivec2(-1, -1), "one pixel too far left and down"),
@@ -187,7 +187,7 @@ TEST(Lookalikes, a_picture_one_pixel_off_is_so_to_every_side) {
   }
 }
 
-TEST(Lookalikes, a_depth_test_turned_round_with_its_clear_depth) {
+TEST(Lookalikes, ADepthTestTurnedRoundWithItsClearDepth) {
   const Scene scene = scene_of("depth/interpenetrating.json");
   Scene turned = scene;
   turned.frame.clear_depth = 1 - turned.frame.clear_depth;
@@ -198,7 +198,7 @@ TEST(Lookalikes, a_depth_test_turned_round_with_its_clear_depth) {
   EXPECT_EQ(lookalikes(scene, drawn(turned, "")).likely, "visibility (fault visibility.farthest_kept)");
 }
 
-TEST(Lookalikes, are_drawn_by_the_conventions) {
+TEST(Lookalikes, AreDrawnByTheConventions) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   Conventions at_corner;
   at_corner.sample = glm::dvec2(0);
@@ -211,7 +211,7 @@ TEST(Lookalikes, are_drawn_by_the_conventions) {
 }
 
 // Faults by which nothing is drawn come near a picture of a few pixels, and are not its cause.
-TEST(Lookalikes, draw_something_where_something_is_drawn) {
+TEST(Lookalikes, DrawSomethingWhereSomethingIsDrawn) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   GivenFrame given = drawn(scene, "");
   std::size_t left = 0;
@@ -227,7 +227,7 @@ TEST(Lookalikes, draw_something_where_something_is_drawn) {
 }
 
 // Truncation moves colours by up to a code: undeclared, it hides affine colours that are a code off.
-TEST(Lookalikes, are_truncated_where_that_is_declared) {
+TEST(Lookalikes, AreTruncatedWhereThatIsDeclared) {
   const std::vector<std::string> faults = {"merge.truncated", "attributes.affine"};
   Request request;
   request.planes = WantedPlanes::picture;
@@ -246,7 +246,7 @@ TEST(Lookalikes, are_truncated_where_that_is_declared) {
 }
 
 // Attributes that are not in perspective are others where a polygon is cut.
-TEST(Lookalikes, of_renderers_that_leave_the_sides_to_the_raster) {
+TEST(Lookalikes, OfRenderersThatLeaveTheSidesToTheRaster) {
   const Scene scene = scene_of("clip/crowd.json");
   const GivenFrame kept = drawn(scene, "attributes.affine", {}, CutAt::guard_band);
   EXPECT_NE(kept.color.values(), drawn(scene, "attributes.affine").color.values()) << "else nothing is tested";
@@ -255,7 +255,7 @@ TEST(Lookalikes, of_renderers_that_leave_the_sides_to_the_raster) {
   EXPECT_TRUE(found.whole) << found.text;
 }
 
-TEST(Lookalikes, of_stages_that_are_right_or_of_declared_roundings_are_none) {
+TEST(Lookalikes, OfStagesThatAreRightOrOfDeclaredRoundingsAreNone) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   GivenFrame affine = drawn(scene, "attributes.affine");
   affine.right = {Stage::attributes};
@@ -280,7 +280,7 @@ TEST(Lookalikes, of_stages_that_are_right_or_of_declared_roundings_are_none) {
 }
 
 // Faults of two stages that draw one frame where depths are constant.
-TEST(Lookalikes, of_a_stage_that_is_wrong_by_itself_come_first) {
+TEST(Lookalikes, OfAStageThatIsWrongByItselfComeFirst) {
   const Scene scene = scene_of("interpolation/ramps.json");
   GivenFrame given = drawn(scene, "window.next_values");
   EXPECT_EQ(lookalikes(scene, given).likely, "attributes (fault attributes.next_corner)");
@@ -295,7 +295,7 @@ TEST(Lookalikes, of_a_stage_that_is_wrong_by_itself_come_first) {
 }
 
 // Depths of 16 bits, and a colour that differs legally: no fault of the colour explains the depths.
-TEST(Lookalikes, of_legal_colors_explain_no_wrong_depths) {
+TEST(Lookalikes, OfLegalColorsExplainNoWrongDepths) {
   const Scene scene = scene_of("coverage/hairlines.json");
   GivenFrame given = drawn(scene, "coverage.top_for_bottom");
   const ColorAndDepth right = drawn(scene, "");
@@ -310,7 +310,7 @@ TEST(Lookalikes, of_legal_colors_explain_no_wrong_depths) {
 }
 
 // A fault that explains the colours, and would have put depths off that are right.
-TEST(Lookalikes, of_colors_alone_leave_right_depths_alone) {
+TEST(Lookalikes, OfColorsAloneLeaveRightDepthsAlone) {
   const Scene scene = scene_of("cull/closed_mesh.json");
   GivenFrame given = drawn(scene, "window.other_side_culled");
   const ColorAndDepth right = drawn(scene, "");
@@ -319,7 +319,7 @@ TEST(Lookalikes, of_colors_alone_leave_right_depths_alone) {
   EXPECT_EQ(lookalikes(scene, given).likely, "") << lookalikes(scene, given).text;
 }
 
-TEST(Lookalikes, right_stages_are_those_that_a_row_finds_right_and_none_wrong) {
+TEST(Lookalikes, RightStagesAreThoseThatARowFindsRightAndNoneWrong) {
   const check::JudgeId exact("exact", check::Kind::per_stage), embree("embree", check::Kind::legal);
   Capture left;
   left.planes.color = Plane<glm::vec4>(4, 2, glm::vec4(0));
@@ -336,7 +336,7 @@ TEST(Lookalikes, right_stages_are_those_that_a_row_finds_right_and_none_wrong) {
   }
 }
 
-TEST(Lookalikes, are_encoded_by_the_conventions) {
+TEST(Lookalikes, AreEncodedByTheConventions) {
   const Scene scene = scene_of("interpolation/ramps.json");
   GivenFrame given = drawn(scene, "attributes.next_corner");
   EXPECT_EQ(lookalikes(scene, given).likely, "attributes (fault attributes.next_corner)");
@@ -344,7 +344,7 @@ TEST(Lookalikes, are_encoded_by_the_conventions) {
   EXPECT_EQ(lookalikes(scene, given).likely, "");
 }
 
-TEST(Lookalikes, what_is_legal_counts_against_them_where_it_is_most) {
+TEST(Lookalikes, WhatIsLegalCountsAgainstThemWhereItIsMost) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   GivenFrame given = drawn(scene, "attributes.affine");
   const std::size_t all = lookalikes(scene, given).apart;
@@ -359,7 +359,7 @@ TEST(Lookalikes, what_is_legal_counts_against_them_where_it_is_most) {
   EXPECT_EQ(lookalikes(scene, given).likely, "");
 }
 
-TEST(Lookalikes, a_fault_that_changes_what_is_legal_and_ours_counts_less) {
+TEST(Lookalikes, AFaultThatChangesWhatIsLegalAndOursCountsLess) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   GivenFrame given = drawn(scene, "");
   given.color(0, 0) = glm::vec4(1) - given.color(0, 0);
@@ -370,14 +370,14 @@ TEST(Lookalikes, a_fault_that_changes_what_is_legal_and_ours_counts_less) {
   EXPECT_EQ(found.likely, "") << found.text;
 }
 
-TEST(Lookalikes, depths_that_are_truncated_differ_by_less_than_a_step) {
+TEST(Lookalikes, DepthsThatAreTruncatedDifferByLessThanAStep) {
   const Scene scene = scene_of("interpolation/many_sided.json");
   const Lookalikes found = lookalikes(scene, drawn(scene, "depth.truncated"));
   EXPECT_EQ(found.likely, "depth (fault depth.truncated)") << found.text;
   EXPECT_EQ(found.codes, 0.5);
 }
 
-TEST(Lookalikes, legal_pixels_are_those_that_no_row_of_legal_answers_finds_wrong) {
+TEST(Lookalikes, LegalPixelsAreThoseThatNoRowOfLegalAnswersFindsWrong) {
   Capture left;
   left.planes.color = Plane<glm::vec4>(4, 2, glm::vec4(0));
   left.planes.depth = Plane<double>(4, 2, 1.0);

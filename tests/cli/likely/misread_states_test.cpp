@@ -121,7 +121,7 @@ const std::vector<Case> kStates = {{"matrices.depth_range_ignored", "depth_range
                                    {"merge.mask_blue_first", "masks/set_and_unset"},
                                    {"merge.clear_color_ignored", "depth/clear_z16"}};
 
-TEST(MisreadStates, are_named_by_their_stages_and_as_likely_faults) {
+TEST(MisreadStates, AreNamedByTheirStagesAndAsLikelyFaults) {
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"exact", exact.get()}};
   for (const Case& c : kStates) {
@@ -141,7 +141,7 @@ TEST(MisreadStates, are_named_by_their_stages_and_as_likely_faults) {
 }
 
 // Every state of the table is set in some scene of the suite, and the suite sets no other.
-TEST(MisreadStates, of_the_suite_are_all_tried) {
+TEST(MisreadStates, OfTheSuiteAreAllTried) {
   std::set<std::string> in_suite, tried;
   for (const Scene& scene : suite_scenes()) {
     for (const KnownFault& fault : misread_states(scene)) in_suite.insert(fault.name);
@@ -150,7 +150,7 @@ TEST(MisreadStates, of_the_suite_are_all_tried) {
   EXPECT_EQ(in_suite, tried);
 }
 
-TEST(MisreadStates, at_their_defaults_are_no_faults) {
+TEST(MisreadStates, AtTheirDefaultsAreNoFaults) {
   Scene scene;
   scene.draws.emplace_back();
   scene.draws[0].lit = false;

@@ -29,7 +29,7 @@ using plumbline::test::Pixels;
 }
 
 // The definition itself, on what the specification says of it.
-TEST(ExactLineCoverage, a_diamond_owns_its_right_corner_and_right_sides) {
+TEST(ExactLineCoverage, ADiamondOwnsItsRightCornerAndRightSides) {
   const glm::i64vec2 far(2000, 256), pixel(1, 1), centre(256, 256);
   const auto owns = [&](int x, int y) { return produces(centre + glm::i64vec2(x, y), far, pixel); };
   EXPECT_TRUE(owns(0, 0));
@@ -58,7 +58,7 @@ TEST(ExactLineCoverage, a_diamond_owns_its_right_corner_and_right_sides) {
 }
 
 // Bresenham's, half open, where the ends are centres, as the specification says.
-TEST(ExactLineCoverage, between_centres_the_last_pixel_is_not_drawn) {
+TEST(ExactLineCoverage, BetweenCentresTheLastPixelIsNotDrawn) {
   EXPECT_EQ(diamond_exit_line({0, 0}, {4 * 256, 0}, {8, 8}), (Pixels{{0, 0}, {1, 0}, {2, 0}, {3, 0}}));
   EXPECT_EQ(diamond_exit_line({256, 5 * 256}, {256, 3 * 256}, {8, 8}), (Pixels{{1, 5}, {1, 4}}));
   EXPECT_EQ(diamond_exit_line({0, 0}, {3 * 256, 3 * 256}, {8, 8}), (Pixels{{0, 0}, {1, 1}, {2, 2}}));
@@ -71,7 +71,7 @@ TEST(ExactLineCoverage, between_centres_the_last_pixel_is_not_drawn) {
 
 // Every pair of ends on grids of 1/8 and 1/4 pixel: all corners of diamonds, points of their sides, centres, corners of
 // pixels.
-TEST(ExactLineCoverage, agree_on_all_corners_and_sides_of_a_small_grid) {
+TEST(ExactLineCoverage, AgreeOnAllCornersAndSidesOfASmallGrid) {
   std::int64_t lines = 0;
   for (const auto& [step, size] : {std::pair{32, 18}, std::pair{64, 20}})
     for (int i = 0; i < size * size; ++i)
@@ -84,7 +84,7 @@ TEST(ExactLineCoverage, agree_on_all_corners_and_sides_of_a_small_grid) {
   EXPECT_EQ(lines, 18 * 18 * 18 * 18 + 20 * 20 * 20 * 20);
 }
 
-TEST(ExactLineCoverage, agree_on_random_lines) {
+TEST(ExactLineCoverage, AgreeOnRandomLines) {
   std::mt19937 random(4);
   std::int64_t pixels = 0;
   for (int i = 0; i < 100'000; ++i) {
@@ -99,7 +99,7 @@ TEST(ExactLineCoverage, agree_on_random_lines) {
   EXPECT_GT(pixels, 400'000);
 }
 
-TEST(ExactLineCoverage, the_frame_changes_no_pixel) {
+TEST(ExactLineCoverage, TheFrameChangesNoPixel) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> coordinate(-20 * 256, 40 * 256), size(1, 20);
   for (int i = 0; i < 20'000; ++i) {
@@ -113,7 +113,7 @@ TEST(ExactLineCoverage, the_frame_changes_no_pixel) {
 }
 
 // Rules 3 and 4: one pixel per column, and a chain of lines paints each of its pixels once, with no gap.
-TEST(ExactLineCoverage, a_chain_has_no_gap_and_no_pixel_twice) {
+TEST(ExactLineCoverage, AChainHasNoGapAndNoPixelTwice) {
   std::mt19937 random(6);
   std::uniform_int_distribution<int> step(0, 700), slope(-128, 128);
   for (int chain = 0; chain < 2'000; ++chain) {
@@ -135,7 +135,7 @@ TEST(ExactLineCoverage, a_chain_has_no_gap_and_no_pixel_twice) {
   }
 }
 
-TEST(ExactLineCoverage, ends_as_far_away_as_they_may_be) {
+TEST(ExactLineCoverage, EndsAsFarAwayAsTheyMayBe) {
   constexpr std::int64_t kFar = std::int64_t{1} << 29;
   for (const glm::i64vec2 b : {glm::i64vec2(kFar, kFar), {kFar, kFar - 1}, {-kFar + 1, kFar}, {3000, kFar}})
     ASSERT_TRUE(agree({-kFar, -kFar}, b, {32, 32}));
@@ -146,7 +146,7 @@ TEST(ExactLineCoverage, ends_as_far_away_as_they_may_be) {
 }
 
 // Rules that are nearly right: the comparison must refuse their lines.
-TEST(ExactLineCoverage, refuses_rules_that_are_nearly_right) {
+TEST(ExactLineCoverage, RefusesRulesThatAreNearlyRight) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> coordinate(0, 32 * 4);
   int whole_ends = 0, reversed = 0, moved = 0;

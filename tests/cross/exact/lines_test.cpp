@@ -43,7 +43,7 @@ std::size_t fragments_alike(const Scene& scene) {
   return capture.records.covered.size();
 }
 
-TEST(ExactLines, a_hundred_thousand_random_lines_cover_the_same_pixels) {
+TEST(ExactLines, AHundredThousandRandomLinesCoverTheSamePixels) {
   RandomThings random(1);
   std::size_t fragments = 0;
   for (int i = 0; i < 50; ++i) {
@@ -54,7 +54,7 @@ TEST(ExactLines, a_hundred_thousand_random_lines_cover_the_same_pixels) {
   EXPECT_GT(fragments, 900'000u);
 }
 
-TEST(ExactLines, wide_lines_and_large_points_cover_the_same_pixels) {
+TEST(ExactLines, WideLinesAndLargePointsCoverTheSamePixels) {
   RandomThings random(3);
   for (int i = 0; i < 40; ++i) {
     Scene scene = pixel_scene(70, 66);
@@ -67,7 +67,7 @@ TEST(ExactLines, wide_lines_and_large_points_cover_the_same_pixels) {
   }
 }
 
-TEST(ExactLines, what_they_cover_by_hand) {
+TEST(ExactLines, WhatTheyCoverByHand) {
   const auto covered = [](WindowTriangle<double> t, std::uint32_t corners, std::uint32_t width) {
     t.corners = corners;
     t.width = width;
@@ -93,7 +93,7 @@ TEST(ExactLines, what_they_cover_by_hand) {
 }
 
 /// Triangles around the eye, many of them cut, not filled.
-TEST(ExactLines, every_stage_of_random_outlines_holds) {
+TEST(ExactLines, EveryStageOfRandomOutlinesHolds) {
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();
   for (unsigned seed = 0; seed < 12; ++seed) {
@@ -118,7 +118,7 @@ TEST(ExactLines, every_stage_of_random_outlines_holds) {
   }
 }
 
-TEST(ExactLines, every_stage_of_random_clouds_holds) {
+TEST(ExactLines, EveryStageOfRandomCloudsHolds) {
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();
   for (const Topology topology : {Topology::lines, Topology::points}) {
@@ -137,7 +137,7 @@ TEST(ExactLines, every_stage_of_random_clouds_holds) {
 
 ClipVertex<double> vertex(glm::dvec4 p_clip, double color) { return {p_clip, glm::dvec4(color), false}; }
 
-TEST(ExactLines, clip_cuts_both_ends) {
+TEST(ExactLines, ClipCutsBothEnds) {
   const auto cut = exact::clip_line(vertex({-2, 0, 0, 1}, 0), vertex({6, 0, 0, 1}, 1));
   ASSERT_EQ(cut.size(), 2u);
   EXPECT_EQ(cut[0].p_clip, glm::dvec4(-1, 0, 0, 1));
@@ -152,7 +152,7 @@ TEST(ExactLines, clip_cuts_both_ends) {
   EXPECT_TRUE(exact::clip_line(vertex({2, 0, 0, 1}, 0), vertex({3, 0, 0, 1}, 1)).empty());
 }
 
-TEST(ExactLines, weights_go_by_projection) {
+TEST(ExactLines, WeightsGoByProjection) {
   WindowTriangle<double> t{};
   t.corners = 2;
   t.v[0].p_win = {2.5, 1.5, 0};
@@ -166,7 +166,7 @@ TEST(ExactLines, weights_go_by_projection) {
   EXPECT_EQ(exact::Barycentric(t, 16, 16).at(4, 3)[0], 1);
 }
 
-TEST(ExactLines, the_oracle_says_nothing_of_lines) {
+TEST(ExactLines, TheOracleSaysNothingOfLines) {
   const Scene scene = thin_cloud(Topology::lines, 5, 1);
   EXPECT_TRUE(exact::make_exact()->capture(scene, {{}, true, {}, {}}).legal.empty());
 }

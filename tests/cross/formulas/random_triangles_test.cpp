@@ -17,7 +17,7 @@ constexpr int kTrianglesPerScene = 500;
 
 class RandomTriangles : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(RandomTriangles, every_stage_equals_exact_from_our_records) {
+TEST_P(RandomTriangles, EveryStageEqualsExactFromOurRecords) {
   const SceneKind kind = kinds()[GetParam()];
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();

@@ -34,12 +34,12 @@ void expect_equal_planes(const Scene& scene) {
   EXPECT_EQ(differing, 0u) << scene.name;
 }
 
-TEST(Taps, planes_are_equal_on_every_scene) {
+TEST(Taps, PlanesAreEqualOnEveryScene) {
   const auto files = suite_files();
   for (std::size_t i = 0; i < files.size(); i += one_of(16)) expect_equal_planes(load_scene(files[i], {}));
 }
 
-TEST(Taps, planes_are_equal_on_random_triangles) {
+TEST(Taps, PlanesAreEqualOnRandomTriangles) {
   for (const SceneKind& kind : kinds()) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) expect_equal_planes(scene_of_triangles(kind, 100, seed));
   }

@@ -47,16 +47,16 @@ void compare_on(const std::vector<std::filesystem::path>& folders, std::size_t e
   }
 }
 
-TEST(OsmesaEgl, same_bits_on_a_few_scenes) {
+TEST(OsmesaEgl, SameBitsOnAFewScenes) {
   const std::filesystem::path suite = suite_folder();
   compare_on({suite / "clip/each_plane.json", suite / "depth/z16.json", suite / "light/sphere_gouraud.json"});
 }
 
 // A process for each.
-TEST(OsmesaEgl, same_bits_on_scenes_of_all_kinds) { compare_on({suite_folder()}, one_of(100)); }
+TEST(OsmesaEgl, SameBitsOnScenesOfAllKinds) { compare_on({suite_folder()}, one_of(100)); }
 
 // Beside each other, each would draw into the other's current context without a word.
-TEST(OsmesaEgl, one_library_per_process) {
+TEST(OsmesaEgl, OneLibraryPerProcess) {
   const auto osmesa = make_osmesa();
   try {
     make_egl();
@@ -69,7 +69,7 @@ TEST(OsmesaEgl, one_library_per_process) {
 }
 
 // The comparison can fail: the same scene with one triangle less.
-TEST(OsmesaEgl, other_bits_are_seen) {
+TEST(OsmesaEgl, OtherBitsAreSeen) {
   Scene scene = suite_scene("clip/each_plane");
   const Request all{.records = StageSet::all()};
   const Capture whole = egl()->capture(scene, all);

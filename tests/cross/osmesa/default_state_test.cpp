@@ -40,7 +40,7 @@ const std::regex kStateless(
     ".*Pointer|EnableClientState|"                             // of arrays that are disabled
     "Load(Matrixf)|Frustum|Ortho|Rotated|Scaled|Translated");  // LoadIdentity undoes them
 
-TEST(OsmesaDefaultState, sets_every_state_that_is_set_anywhere) {
+TEST(OsmesaDefaultState, SetsEveryStateThatIsSetAnywhere) {
   const std::string defaults = test::text_of(kFolder + "scene/default_state.cpp");
   const std::string functions = test::text_of(kFolder + "gl/gl.h");
   int setters = 0;
@@ -66,7 +66,7 @@ TEST(OsmesaDefaultState, sets_every_state_that_is_set_anywhere) {
 }
 
 // Mesa's glPopAttrib leaves the alpha's equation where rgb's is the default.
-TEST(OsmesaDefaultState, a_blend_equation_of_alpha_alone_is_not_left) {
+TEST(OsmesaDefaultState, ABlendEquationOfAlphaAloneIsNotLeft) {
   Scene scene = pixel_scene(8, 8), before = scene;
   for (const float z : {0.0f, 0.5f}) add(scene, rectangle(1, 1, 7, 7, z));
   add(before, rectangle(1, 1, 7, 7, 0)).merge.blend.emplace().alpha.equation = BlendEquation::subtract;
@@ -102,7 +102,7 @@ std::optional<Capture> capture(Renderer& osmesa, const Scene& scene) {
 }
 
 // Each scene after a scene of each other group, another one for each.
-TEST(OsmesaAfterEveryGroup, each_scene_draws_what_it_draws_in_a_fresh_context) {
+TEST(OsmesaAfterEveryGroup, EachSceneDrawsWhatItDrawsInAFreshContext) {
   const Suite suite = read_suite();
   const std::size_t every = one_of(211);
   const auto used = make_opengl();

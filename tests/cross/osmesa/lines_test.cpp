@@ -22,7 +22,7 @@ std::vector<std::vector<glm::ivec2>> pixels_by_line(const Capture& capture) {
   return lines;
 }
 
-TEST(OsmesaLines, keep_to_the_allowances_of_the_specification) {
+TEST(OsmesaLines, KeepToTheAllowancesOfTheSpecification) {
   RandomThings random(1);
   std::vector<glm::vec3> ends;
   for (int i = 0; i < 4000; ++i) ends.emplace_back(random.number(1, 63), random.number(1, 63), 0);
@@ -37,7 +37,7 @@ TEST(OsmesaLines, keep_to_the_allowances_of_the_specification) {
 }
 
 // Measured: Mesa 22.3.6 loses them, 25.0.7 does not.
-TEST(OsmesaLines, lose_no_pixel_but_the_first_of_steep_lines_that_run_downwards) {
+TEST(OsmesaLines, LoseNoPixelButTheFirstOfSteepLinesThatRunDownwards) {
   std::vector<glm::vec3> ends;
   for (int dx = -6; dx <= 6; ++dx)
     for (int dy = -6; dy <= 6; ++dy) {
@@ -68,7 +68,7 @@ TEST(OsmesaLines, lose_no_pixel_but_the_first_of_steep_lines_that_run_downwards)
   EXPECT_EQ(ties, lost == 0 ? 4 : 6);            // slopes of 1/2 and the like
 }
 
-TEST(OsmesaLines, points_are_the_same_exactly) {
+TEST(OsmesaLines, PointsAreTheSameExactly) {
   RandomThings random(2);
   std::vector<glm::vec3> positions;
   for (int i = 0; i < 3000; ++i) {
@@ -87,7 +87,7 @@ TEST(OsmesaLines, points_are_the_same_exactly) {
   EXPECT_EQ(check::compare_coverage(ours.planes, theirs.planes).differing, 0u);
 }
 
-TEST(OsmesaLines, squares_are_the_same_exactly) {
+TEST(OsmesaLines, SquaresAreTheSameExactly) {
   RandomThings random(4);
   const auto ours = pipeline::make_pipeline();
   const auto osmesa = make_opengl();
@@ -111,7 +111,7 @@ TEST(OsmesaLines, squares_are_the_same_exactly) {
 // An odd width moves a line by whole pixels: nothing changes. An even one moves it by half a pixel, and llvmpipe looks
 // where it begins and ends before it is moved: about half of its lines have a column more or less at one end. Some lose
 // the first besides, as steep lines do that run downwards, and are two apart in number, which OpenGL does not allow.
-TEST(OsmesaLines, wide_lines_keep_to_the_allowances_where_their_width_is_odd) {
+TEST(OsmesaLines, WideLinesKeepToTheAllowancesWhereTheirWidthIsOdd) {
   const auto ours = pipeline::make_pipeline();
   const auto osmesa = make_opengl();
   for (const int width : {2, 3, 4, 5, 8, 15, 16}) {
@@ -133,7 +133,7 @@ TEST(OsmesaLines, wide_lines_keep_to_the_allowances_where_their_width_is_odd) {
   }
 }
 
-TEST(OsmesaLines, every_stage_of_random_clouds_holds) {
+TEST(OsmesaLines, EveryStageOfRandomCloudsHolds) {
   const auto ours = pipeline::make_pipeline();
   const auto osmesa = make_opengl();
   const check::Reference references[] = {{"osmesa", osmesa.get()}};

@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-TEST(OsmesaRandom, coverage_is_the_same_and_values_within_their_bounds) {
+TEST(OsmesaRandom, CoverageIsTheSameAndValuesWithinTheirBounds) {
   const auto ours = pipeline::make_pipeline();
   const auto osmesa = make_opengl();
   const auto exact = exact::make_exact();

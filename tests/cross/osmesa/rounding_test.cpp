@@ -68,7 +68,7 @@ Plane<glm::vec4> color_of(Renderer& renderer, const Scene& scene) {
   return capture.planes.color;
 }
 
-TEST(Rounding, goes_to_the_nearest_code_but_for_the_rounding_of_the_product) {
+TEST(Rounding, GoesToTheNearestCodeButForTheRoundingOfTheProduct) {
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();
   const auto osmesa = make_opengl();
@@ -101,7 +101,7 @@ TEST(Rounding, goes_to_the_nearest_code_but_for_the_rounding_of_the_product) {
   }
 }
 
-TEST(Rounding, every_code_is_its_own) {
+TEST(Rounding, EveryCodeIsItsOwn) {
   const auto ours = pipeline::make_pipeline();
   const auto osmesa = make_opengl();
   std::vector<float> values;

@@ -30,7 +30,7 @@ Pixels bresenham(glm::ivec2 a, glm::ivec2 b) {
   return pixels;
 }
 
-TEST(OsmesaSoftpipeLines, are_bresenhams_on_floored_ends) {
+TEST(OsmesaSoftpipeLines, AreBresenhamsOnFlooredEnds) {
   RandomThings random(1);
   std::vector<glm::vec3> ends;
   for (int i = 0; i < 6000; ++i) ends.emplace_back(random.number(1, 47), random.number(1, 47), 0);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <plumbline/matches_scene.h>
 
-TEST(Rasterizer, shows_a_fan_of_two_triangles) {
+TEST(Rasterizer, ShowsAFanOfTwoTriangles) {
   const Corner a{8, 8, 0.5, 1, {1, 0, 0, 1}}, b{56, 8, 0.5, 1, {0, 1, 0, 1}}, c{56, 56, 0.5, 1, {0, 0, 1, 1}},
       d{8, 56, 0.5, 1, {1, 1, 0, 1}};
   Image image(64, 64, {0, 0, 0, 0});

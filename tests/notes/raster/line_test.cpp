@@ -86,7 +86,7 @@ std::string drawn(const Algorithm& draw, glm::ivec2 from, glm::ivec2 to, glm::iv
   return picture;
 }
 
-TEST(RasterLine, draws_what_a_person_would) {
+TEST(RasterLine, DrawsWhatAPersonWould) {
   for (const auto& [name, draw] : kAlgorithms) {
     SCOPED_TRACE(name);
     EXPECT_EQ(drawn(draw, {0, 0}, {7, 3}, {8, 4}),
@@ -105,7 +105,7 @@ TEST(RasterLine, draws_what_a_person_would) {
   }
 }
 
-TEST(RasterLine, midpoint_and_brute_force_are_the_closest_pixels_on_all_of_a_grid) {
+TEST(RasterLine, MidpointAndBruteForceAreTheClosestPixelsOnAllOfAGrid) {
   for (int i = 0; i < 1024; ++i)
     for (int j = 0; j < 1024; ++j) {
       const glm::ivec2 a(i % 32, i / 32), b(j % 32, j / 32);
@@ -121,7 +121,7 @@ glm::ivec2 random_16_bit(std::mt19937& random) {
   return {x, coordinate(random)};
 }
 
-TEST(RasterLine, midpoint_and_brute_force_are_the_closest_pixels_of_long_lines) {
+TEST(RasterLine, MidpointAndBruteForceAreTheClosestPixelsOfLongLines) {
   std::mt19937 random(1);
   for (std::size_t i = 0; i < 500; i += plumbline::one_of(10)) {
     const glm::ivec2 a = random_16_bit(random), b = random_16_bit(random);
@@ -132,7 +132,7 @@ TEST(RasterLine, midpoint_and_brute_force_are_the_closest_pixels_of_long_lines) 
 }
 
 // A million lines (in a run, 100,000), each seen through a frame at a place on it.
-TEST(RasterLine, midpoint_and_brute_force_are_the_closest_pixels_of_a_million_lines) {
+TEST(RasterLine, MidpointAndBruteForceAreTheClosestPixelsOfAMillionLines) {
   std::mt19937 random(2);
   constexpr glm::ivec2 kFrame(33, 31);
   std::int64_t seen = 0;
@@ -155,7 +155,7 @@ TEST(RasterLine, midpoint_and_brute_force_are_the_closest_pixels_of_a_million_li
 }
 
 // The notes' ROUND(k x + d), half upwards, in double, as one would write it; x0 < x1, 0 <= k <= 1.
-TEST(RasterLine, differs_from_round_at_exact_ties_only) {
+TEST(RasterLine, DiffersFromRoundAtExactTiesOnly) {
   std::int64_t differences = 0, ties = 0, ties_by_gcd = 0, pixels = 0;
   for (int n = 1; n < 256; ++n)
     for (int a = 0; a <= n; ++a) {
@@ -184,7 +184,7 @@ TEST(RasterLine, differs_from_round_at_exact_ties_only) {
 // y = y + k: the farthest that a pixel of it is from the line, on the slope that is worst at this length (found among
 // all; the median slope's sum is off by a fifth of the worst's). The closest pixel is never farther than 1/2. In double
 // the sum is off by 3e-8 over 32,767 steps.
-TEST(RasterLine, incremental_drifts) {
+TEST(RasterLine, IncrementalDrifts) {
   struct Row {
     int n, a;
     double worst;
@@ -200,7 +200,7 @@ TEST(RasterLine, incremental_drifts) {
   }
 }
 
-TEST(RasterLine, octants_are_mirror_images) {
+TEST(RasterLine, OctantsAreMirrorImages) {
   using Mirror = glm::ivec2 (*)(glm::ivec2);
   const Mirror mirrors[] = {[](glm::ivec2 p) { return glm::ivec2(-p.x, p.y); },
                             [](glm::ivec2 p) { return glm::ivec2(p.x, -p.y); },
@@ -216,7 +216,7 @@ TEST(RasterLine, octants_are_mirror_images) {
         }
 }
 
-TEST(RasterLine, from_the_other_end_differs_at_ties_only) {
+TEST(RasterLine, FromTheOtherEndDiffersAtTiesOnly) {
   int ties = 0;
   for (int dx = -31; dx <= 31; ++dx)
     for (int dy = -31; dy <= 31; ++dy) {
@@ -231,7 +231,7 @@ TEST(RasterLine, from_the_other_end_differs_at_ties_only) {
   EXPECT_EQ(ties, 2'848);
 }
 
-TEST(RasterLine, the_frame_changes_no_pixel) {
+TEST(RasterLine, TheFrameChangesNoPixel) {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> coordinate(-60, 100), size(1, 40);
   for (const auto& [name, draw] : kAlgorithms)
@@ -252,7 +252,7 @@ TEST(RasterLine, the_frame_changes_no_pixel) {
     }
 }
 
-TEST(RasterLine, ends_as_far_away_as_they_may_be) {
+TEST(RasterLine, EndsAsFarAwayAsTheyMayBe) {
   constexpr int kFar = 1 << 29;
   for (const Algorithm& draw : {Algorithm(brute_force_line), Algorithm(midpoint_line)}) {
     EXPECT_EQ(draw(end(-kFar, -kFar), end(kFar, kFar), {64, 64}).size(), 64u);
@@ -269,7 +269,7 @@ TEST(RasterLine, ends_as_far_away_as_they_may_be) {
   }
 }
 
-TEST(RasterLine, depth_and_color_are_affine_in_the_step) {
+TEST(RasterLine, DepthAndColorAreAffineInTheStep) {
   for (const auto& [name, draw] : kAlgorithms) {
     SCOPED_TRACE(name);
     const std::vector<LinePixel> line =
@@ -289,7 +289,7 @@ TEST(RasterLine, depth_and_color_are_affine_in_the_step) {
 
 // b / 2 as an integer, for an odd b: rounded to 0, f is 1/2 too large, and is never wrong, for it is then 1/2 beside an
 // integer; rounded down, f = 1/2 becomes 0, and E is taken for NE. is_the_line sees it.
-TEST(RasterLine, half_a_constant_is_not_an_integer) {
+TEST(RasterLine, HalfAConstantIsNotAnInteger) {
   const auto wrong_lines = [](auto half) {
     int wrong = 0;
     for (int n = 1; n < 32; ++n)
