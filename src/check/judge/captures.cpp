@@ -18,6 +18,7 @@ Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal, co
     return renderer.capture(scene, request);
   } catch (const OverBudget&) {
     request.legal = false;
+    if (info.legal) request.planes = WantedPlanes::none;
     return renderer.capture(scene, request);
   }
 }

@@ -39,10 +39,10 @@ struct Distance {
 
   bool is_color_beyond(const Eye& eye) const {
     const float most = eye.codes / 255;
-    return !(rgb <= most) || (eye.by_alpha && !(alpha <= most));
+    return eye.codes < kUnseen && (!(rgb <= most) || (eye.by_alpha && !(alpha <= most)));
   }
   bool is_depth_beyond(const Eye& eye) const {
-    return has_depth && !(depth <= std::max(eye.steps * step, eye.float_depth));
+    return has_depth && eye.steps < kUnseen && !(depth <= std::max(eye.steps * step, eye.float_depth));
   }
 };
 
@@ -60,7 +60,7 @@ Distance distance(DepthFormat format, const ColorAndDepth& given, const ColorAnd
   return out;
 }
 
-// Whether a pixel is the same number by number, which most are. NaN is not.
+// Whether a pixel's numbers are equal, as most are; false for NaN.
 bool is_same(const ColorAndDepth& given, const ColorAndDepth& other, std::size_t i) {
   const bool by_depth = !given.depth.empty() && given.depth.size() == other.depth.size();
   return given.color.values()[i] == other.color.values()[i] &&

@@ -131,7 +131,10 @@ bool end_at_size(Draw& d) {
 
 bool scissor_from_other_side(Scene& scene) {
   return of_draws([height = scene.frame.height](Draw& d) {
-    return d.scissor && reset(d.scissor->y, std::max(height - d.scissor->y - d.scissor->height, 0));
+    if (!d.scissor) return false;
+    const int low = height - d.scissor->y - d.scissor->height;
+    const bool is_lower = reset(d.scissor->height, std::max(d.scissor->height + std::min(low, 0), 0));
+    return reset(d.scissor->y, std::max(low, 0)) || is_lower;
   })(scene);
 }
 
