@@ -36,7 +36,8 @@ double error_near(const Projected& scene, const Triangle& t, std::span<const glm
     const double height = altitude(piece[0], piece[1], piece[2]) - 2 * (t.reach - scene.snap);
     WindowCorners corners;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double z_view = std::clamp(0.5 + glm::dot(t.z_plane, glm::dvec3(piece[i], 1)), 0.0, 1.0);
+      double z_view = 0.5 + glm::dot(t.z_plane, glm::dvec3(piece[i], 1));
+      if (!scene.depth_clamp) z_view = std::clamp(z_view, 0.0, 1.0);  // the near and the far plane cut it
       corners[i] = {piece[i] + 0.5 * glm::dvec2(scene.width, scene.height), to_window(t, z_view)};
     }
     const double off = 1 + 4 * t.reach / height;
@@ -45,16 +46,17 @@ double error_near(const Projected& scene, const Triangle& t, std::span<const glm
   return out < 0 ? kInfinity : out;
 }
 
-// Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and
-// depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel].
+// Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and, where the near and the
+// far plane cut, depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel].
 template <class Error>
 double error_of_pieces(const Projected& scene, const Triangle& t, double slope, glm::dvec3 d,
                        const PieceAltitudes& altitudes, Error error) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   // A plane through corners that are off by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
   const auto of_pieces = [&](const std::vector<glm::dvec2>& outline, double altitude, glm::dvec2 extent) {
-    const double of_all = depth_error_of_pieces(arithmetic, altitude, slope * (1 + 4 * t.reach / altitude), extent);
-    return std::min(of_all, error_near(scene, t, outline, d, error));
+    const double near = error_near(scene, t, outline, d, error);
+    if (scene.depth_clamp) return near;
+    return std::min(near, depth_error_of_pieces(arithmetic, altitude, slope * (1 + 4 * t.reach / altitude), extent));
   };
   const double framed = of_pieces(t.outline, altitudes.framed, {scene.width, scene.height});
   if (t.guarded.extent == glm::dvec2(0)) return framed;

@@ -30,8 +30,11 @@ OffsetBounds polygon_offset(const Projected& scene, const Triangle& t, const Pol
   if (offset == PolygonOffset{}) return {};
   if (t.flat) return {0, kInfinity};
   const double scale = range_scale(t), factor = offset.factor, units = offset.units;
-  const double z_ndc =  // largest; without a near and a far plane, a corner may lie beyond them
-      scene.depth_clamp ? std::max({1.0, std::abs(2 * t.z_min - 1), std::abs(2 * t.z_max - 1)}) : 1;
+  double z_ndc = 1;  // largest; without a near and a far plane, a piece's corner may lie beyond them
+  if (scene.depth_clamp) {
+    z_ndc = t.ahead ? std::max({1.0, std::abs(2 * t.z_min - 1), std::abs(2 * t.z_max - 1)})
+                    : std::max(1.0, t.size.z / t.w_min);
+  }
   const double corner_error =
       kFloatRounding * (scale * t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * t.w_min) + 3);  // as pixel_hit.cpp's
   // r depends on the largest depth of a piece's corners: corners of the triangle, or cuts.
@@ -45,7 +48,8 @@ OffsetBounds polygon_offset(const Projected& scene, const Triangle& t, const Pol
   }
   OffsetBounds out;
   if (units != 0) {
-    if (scene.depth == DepthFormat::z32f && !std::isfinite(largest)) return {0, kInfinity};
+    const bool is_of_depth = scene.depth == DepthFormat::z32f && !(scene.conventions.float_offset_unit > 0);
+    if (is_of_depth && !std::isfinite(largest)) return {0, kInfinity};
     const auto r_at = [&](double z) { return static_cast<double>(offset_unit(scene.depth, scene.conventions, z)); };
     const double r_lo = r_at(least), r_hi = r_at(largest);
     out = {0.5 * units * (r_lo + r_hi), 0.5 * std::abs(units) * (r_hi - r_lo)};

@@ -254,13 +254,15 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   const Polygon part = part_inside(scene, c, 6, t.cut);
   if (part.count < 3) return;
   set_planes(c, t);
-  bool cut_in_depth = false;
+  std::array<bool, 6> may_cut{};
   for (const Corner* corner : c) {  // a corner on a plane of the view volume may or may not be cut
     const auto inside = inside_planes(scene, *corner, 0, scene.depth_clamp);
     const auto error = plane_errors(scene, corner->size, 0);
-    for (std::size_t p = 0; p < 6; ++p) t.cut |= inside[p] < 4 * error[p];
-    cut_in_depth |= inside[0] < 4 * error[0] || inside[1] < 4 * error[1];
+    for (std::size_t p = 0; p < 6; ++p) may_cut[p] |= inside[p] < 4 * error[p];
   }
+  t.cuts = static_cast<int>(std::ranges::count(may_cut, true));
+  t.cut |= t.cuts > 0;
+  const bool cut_in_depth = may_cut[0] || may_cut[1];
   t.roundings = t.cut ? kRoundingsCut : kRoundingsUncut;
   t.ahead = true;
   t.z_min = kInfinity;

@@ -53,6 +53,7 @@ struct Triangle {
   bool thin = false;         ///< snapping may reverse its facing or make its area 0
   bool flat = false;         ///< no area in double, and so no plane
   bool cut = false;          ///< some renderer may cut it at the view volume
+  int cuts = 0;              ///< number of the view volume's planes that may cut it
   bool ahead = false;        ///< w > 0 at all corners
   bool loose = false;        ///< float arithmetic may move it anywhere in the window; `flat` is set, too
   double sign = 0;           ///< of det

@@ -1,9 +1,10 @@
 // Coverage that declared conventions decide.
 //
 // For a renderer that declares its grid and its tie rule (settles_ties()), coverage is open only where float arithmetic
-// decides to which grid point a corner is snapped: where the corner's position in double is nearer to the middle
-// between two grid points than float arithmetic may displace it (corner_displacement()). Coverage is known where all
-// grid points of all three corners give the same answer; the tie rule settles edge functions that are 0.
+// decides to which grid point a corner is snapped: where the corner's position in double is nearer to where the rounding
+// changes (the middle between two grid points; down and up: a grid point) than float arithmetic may displace it
+// (corner_displacement()). Coverage is known where all grid points of all three corners give the same answer; the tie
+// rule settles edge functions that are 0.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,17 +20,24 @@ namespace {
 
 using C = Conventions;
 
+/// Displacement of a position that is converted to fixed point of 11 bits before it is rounded down or up [pixels].
+constexpr double kOfFixedPoint = 0x1p-12;
+
 /// Grid points to which a corner may be snapped, from the window's lower left corner [steps of the grid]; none: any.
 struct GridPoints {
   std::array<glm::dvec2, 4> at;
   std::size_t count = 0;
 };
 GridPoints grid_points(const Projected& scene, const Corner& corner, double steps) {
-  const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height), off = steps * corner_displacement(scene, corner);
+  const C::Rounding rounding = scene.conventions.subpixel_rounding;
+  const double before = rounding == C::Rounding::nearest ? 0 : kOfFixedPoint;
+  const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height),
+      off = steps * (corner_displacement(scene, corner) + before);
   const glm::dvec2 at = steps * (glm::dvec2(corner.v) / corner.v.z + scene.sample + half);
   GridPoints out;
   if (!(off.x < 0.5 && off.y < 0.5)) return out;
-  const glm::dvec2 low = glm::round(at - off), high = glm::round(at + off);
+  const auto snapped = [&](glm::dvec2 p) { return glm::dvec2(rounded(rounding, p.x), rounded(rounding, p.y)); };
+  const glm::dvec2 low = snapped(at - off), high = snapped(at + off);
   for (double y = low.y; y <= high.y; ++y) {
     for (double x = low.x; x <= high.x; ++x) out.at[out.count++] = {x, y};
   }

@@ -76,15 +76,21 @@ std::uint32_t pieces(const Projected& projected, const PixelHit& h) {
 ///
 /// A group (groups.cpp) whose triangles are neither cut nor turned over makes as many fragments as its winding number,
 /// at least one. The winding number is the same everywhere within delta of the pixel, and is counted beside the centre,
-/// at a point through which no edge is likely to run. By an inclusive rule a sample on an edge is in both triangles.
+/// at one point, through which no edge is likely to run. By an inclusive rule a sample on an edge is in both triangles.
 std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits, std::size_t groups, int x,
                              int y) {
   const auto beside = [&](double delta) { return projected.ray(x, y) + delta * glm::dvec3(0.37, 0.21, 0); };
   struct Group {
     bool known = true;
+    double delta = 0;  // the members' largest
     std::uint32_t members = 0, winding = 0;
   };
   std::vector<Group> of_group(groups);
+  for (const PixelHit& h : hits) {
+    if (h.hit.group < 0) continue;
+    double& delta = of_group[static_cast<std::size_t>(h.hit.group)].delta;
+    delta = std::max(delta, h.delta);
+  }
   std::uint32_t most = 0;
   for (const PixelHit& h : hits) {
     const Triangle& t = projected.triangles[h.hit.primitive];
@@ -94,7 +100,7 @@ std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHi
     }
     Group& group = of_group[static_cast<std::size_t>(h.hit.group)];
     group.known = group.known && !t.cut && !t.thin && projected.conventions.tie_rule != Conventions::TieRule::inclusive;
-    const glm::dvec3 d = beside(h.delta);
+    const glm::dvec3 d = beside(group.delta);
     const auto is_inner = [&](const glm::dvec3& n) { return t.sign * glm::dot(n, d) > 0; };
     group.members += pieces(projected, h), group.winding += std::ranges::all_of(t.n, is_inner) ? 1 : 0;
   }
@@ -319,7 +325,8 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
       draw_inside(scene, projected, hits, x, y, out.planes);
       if (records) add_fragments(projected, hits, x, y, request.records, out.records);
-      const bool is_counted = legal.certain(x, y) == legal.possible(x, y);
+      const auto is_settled = [](const Hit& hit) { return hit.certain || hit.group >= 0; };
+      const bool is_counted = legal.certain(x, y) == legal.possible(x, y) && std::ranges::all_of(to_fold, is_settled);
       if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, is_counted, x, y, legal);
       const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
       by_depth += share.area;

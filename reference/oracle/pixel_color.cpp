@@ -1,6 +1,7 @@
 // The colour of a hit, with its bound.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "capture/by_conventions.h"
 #include "reference/arithmetic/color_error.h"
@@ -14,40 +15,57 @@ namespace plumbline::math {
 
 namespace {
 
-/// The hit's texture coordinates, and the range of lambda over the four pixels of its 2 x 2 quad, by ray differentials:
-/// d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j. `off`: relative error of the derivatives.
+/// Derivatives of the hit's texture coordinates along x and y, which `planes` weight: d b_i / dx = (n_i.x - b_i sum_j
+/// n_j.x) / sum_j e_j. None: the ray meets the triangle's plane behind the eye.
+struct Derivatives {
+  glm::dvec2 along_x, along_y;
+};
+std::optional<Derivatives> derivatives(const PixelSite& site, const std::array<glm::dvec3, 3>& planes, glm::dvec3 ray) {
+  const glm::dvec3 e(glm::dot(planes[0], ray), glm::dot(planes[1], ray), glm::dot(planes[2], ray));
+  const glm::dvec3 n_sum = planes[0] + planes[1] + planes[2];
+  const double sum = e.x + e.y + e.z;
+  if (!(sum * site.t.sign > 0)) return std::nullopt;
+  Derivatives out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double b = e[static_cast<glm::length_t>(i)] / sum;
+    const glm::dvec2 texcoord = site.scene.corners[site.t.corner[i]].texcoord;
+    out.along_x += (planes[i].x - b * n_sum.x) / sum * texcoord;
+    out.along_y += (planes[i].y - b * n_sum.y) / sum * texcoord;
+  }
+  return out;
+}
+
+/// The hit's texture coordinates, and the range of lambda over the four pixels of its 2 x 2 quad. `off`: relative error
+/// of the derivatives. A renderer that interpolates without perspective may take derivatives of what it interpolates, or
+/// those of the surface.
 BoundedPlace place_in_texture(const Texture& texture, const PixelSite& site, const BoundedFour& st,
                               const LevelRules& rules, double off) {
-  const Triangle& t = site.t;
   const glm::ivec2 pixel = site.pixel;
   const glm::dvec3 centre = site.scene.to_centre(site.d);
   BoundedPlace out{glm::dvec2(st.value), glm::dvec2(st.bound), 0, kInfinity, -kInfinity};
   for (glm::length_t k = 0; k < 2; ++k) {  // a coordinate that is 0 at all corners is 0 in any arithmetic
     const auto is_0 = [&](std::uint32_t corner) { return site.scene.corners[corner].texcoord[k] == 0; };
-    if (std::isfinite(st.bound) && std::ranges::all_of(t.corner, is_0)) out.bound[k] = 0;
+    if (std::isfinite(st.bound) && std::ranges::all_of(site.t.corner, is_0)) out.bound[k] = 0;
   }
-  const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
   const double least_off = std::max(1 - off, 0.0);
   for (int k = 0; k < 4; ++k) {
     const glm::ivec2 at((pixel.x & ~1) + k % 2, (pixel.y & ~1) + k / 2);
     const glm::dvec3 ray = centre + glm::dvec3(glm::dvec2(at - pixel), 0);
-    const glm::dvec3 e(glm::dot(t.n[0], ray), glm::dot(t.n[1], ray), glm::dot(t.n[2], ray));
-    const double sum = e.x + e.y + e.z;
-    glm::dvec2 d_dx(0), d_dy(0);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double b = e[static_cast<glm::length_t>(i)] / sum;
-      const glm::dvec2 texcoord = site.scene.corners[t.corner[i]].texcoord;
-      d_dx += (t.n[i].x - b * n_sum.x) / sum * texcoord;
-      d_dy += (t.n[i].y - b * n_sum.y) / sum * texcoord;
+    for (const bool of_surface : {false, true}) {
+      const auto planes = of_surface ? site.t.n : site.weight_planes();
+      const auto d = site.has_one_plane() ? derivatives(site, planes, ray) : std::nullopt;
+      double lambda = static_cast<double>(texture.sampler.max_lod), most = lambda,
+             least = static_cast<double>(texture.sampler.min_lod);
+      if (d) {
+        lambda = level_of_detail(texture, d->along_x, d->along_y);
+        least = smallest_level_of_detail(texture, least_off * d->along_x, least_off * d->along_y, rules);
+        most = largest_level_of_detail(texture, (1 + off) * d->along_x, (1 + off) * d->along_y, rules);
+      }
+      if (at == pixel && !of_surface) out.lambda = lambda;
+      out.lambda_lo = std::min(out.lambda_lo, least);
+      out.lambda_hi = std::max(out.lambda_hi, most);
+      if (planes == site.t.n) break;
     }
-    const bool ahead = sum * t.sign > 0;
-    const double lambda = ahead ? level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.max_lod);
-    const double least = ahead ? smallest_level_of_detail(texture, least_off * d_dx, least_off * d_dy, rules)
-                               : static_cast<double>(texture.sampler.min_lod);
-    const double most = ahead ? largest_level_of_detail(texture, (1 + off) * d_dx, (1 + off) * d_dy, rules) : lambda;
-    if (at == pixel) out.lambda = lambda;
-    out.lambda_lo = std::min(out.lambda_lo, least);
-    out.lambda_hi = std::max(out.lambda_hi, most);
   }
   return out;
 }
@@ -72,7 +90,8 @@ struct FactorRange {
 // Corners of a cut triangle's pieces lie between the nearest and the farthest of its corners, or of where the near
 // plane cuts it, whichever planes of the sides a renderer cuts at. Where the factor is convex in the distance, one that
 // they interpolate is at most the chord's of that range, and at least that of the fragment's distance. exp2 is not
-// convex, nor is any factor about the eye's plane: these may come to any factor of the range.
+// convex, nor is linear fog where it starts, nor any factor about the eye's plane: these may come to any factor of the
+// range.
 void include_factors_of_pieces(FactorRange& factors, const Fog& fog, const PixelSite& site, double distance) {
   const auto z_eye = [&](std::uint32_t corner) { return site.scene.corners[corner].z_eye; };
   const auto [low, high] = std::ranges::minmax(site.t.corner, {}, z_eye);
@@ -83,7 +102,8 @@ void include_factors_of_pieces(FactorRange& factors, const Fog& fog, const Pixel
   const auto factor_at = [&](double d) { return fog_factor(fog, {d, 0}, {16}).value; };
   const double share = far > near ? std::clamp((distance - near) / (far - near), 0.0, 1.0) : 0;
   factors.include(glm::mix(factor_at(near), factor_at(far), share));
-  if (fog.mode == Fog::Mode::exp2 || (is_about_eye && near == 0))
+  const bool starts = fog.mode == Fog::Mode::linear && near < fog.start && fog.start < far;
+  if (fog.mode == Fog::Mode::exp2 || starts || (is_about_eye && near == 0))
     factors.include(factor_at(near)), factors.include(factor_at(far));
 }
 
@@ -113,6 +133,7 @@ class FragmentColor {
   // between three equal corners, too.
   BoundedFour of_vertices(auto of_corner) const {
     std::array<BoundedFour, 3> corners = at_corners(of_corner);
+    for (BoundedFour& corner : corners) corner.bound += rounding_of_vertices();
     const bool is_flat = draw_.shading == Shading::flat;
     if (is_flat) corners[0] = corners[1] = corners[2];
     const bool is_given =
@@ -125,6 +146,8 @@ class FragmentColor {
   void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
   BoundedFour textured(const BoundedFour& color) const;
   void fog(BoundedFour& color) const;
+  // Error of a corner's colour, where vertices' colours are codes; else 0. Each plane that cuts rounds once more.
+  double rounding_of_vertices() const;
   // Half a code, where fragments' colours are codes; else 0.
   double half_code() const;
   // Whether the last rounding counts: the colour is blended or encoded. Else the frame rounds a code to itself.
@@ -175,6 +198,11 @@ BoundedFour FragmentColor::color() const {
     round(color, of_last);
   }
   return color;
+}
+
+double FragmentColor::rounding_of_vertices() const {
+  const bool are_codes = has_codes_of_vertices(scene_.frame, site_.scene.conventions);
+  return are_codes ? (1 + site_.t.cuts) * 0.5 / color_scale(scene_.frame.color) : 0;
 }
 
 double FragmentColor::half_code() const {

@@ -13,15 +13,6 @@ namespace {
 
 bool is_affine(const Projected& scene) { return scene.conventions.interpolation == Conventions::Interpolation::affine; }
 
-/// Gradients of the edge functions that weight attributes: where a renderer interpolates without perspective, each is
-/// multiplied by its corner's w. Of a triangle that may be cut: with perspective (error_of_cuts()).
-std::array<glm::dvec3, 3> weight_planes(const Projected& scene, const Triangle& t) {
-  std::array<glm::dvec3, 3> out = t.n;
-  if (!is_affine(scene) || t.cut) return out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] *= scene.corners[t.corner[i]].v.z;
-  return out;
-}
-
 /// Largest difference between an attribute with perspective and one without, over the attribute's range, where a
 /// renderer may cut the triangle into pieces. A piece's corners have attributes a_i, whose range is within that of the
 /// triangle's corners, and w_i in [w_lo, w_hi]. A point has b_i without perspective, and with it c_i = (b_i / w_i) / m,
@@ -142,9 +133,18 @@ double PixelSite::centre_weight(bool certain) const {
   return altitude > 0 ? std::max(weight, 1 + 4 * (scene.snap + apart) / altitude) : kInfinity;
 }
 
+// Without perspective, each edge function is multiplied by its corner's w; not of a triangle that may be cut
+// (error_of_cuts()).
+std::array<glm::dvec3, 3> PixelSite::weight_planes() const {
+  std::array<glm::dvec3, 3> out = t.n;
+  if (!is_affine(scene) || t.cut) return out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] *= scene.corners[t.corner[i]].v.z;
+  return out;
+}
+
 BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool certain) const {
   const glm::dvec3 centre = scene.to_centre(d);
-  const std::array<glm::dvec3, 3> n = weight_planes(scene, t);
+  const std::array<glm::dvec3, 3> n = weight_planes();
   const glm::dvec3 e(glm::dot(n[0], centre), glm::dot(n[1], centre), glm::dot(n[2], centre));
   const double weight = centre_weight(certain), sum = e.x + e.y + e.z;
   // Without a reliable plane: the mean of the corners, without a bound.

@@ -32,9 +32,15 @@ class SceneByConventions {
 /// The depth buffer's format: the convention's, or the frame's where that is as_asked.
 DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& conventions);
 
+/// Whether colours of vertices are codes of the frame's format before they are interpolated, and again where a triangle
+/// is cut.
+inline bool has_codes_of_vertices(const FrameFormat& frame, const Conventions& conventions) {
+  return conventions.vertex_colors == Conventions::ColorNumbers::in_codes && color_scale(frame.color) > 0;
+}
+
 /// Whether colours of the frame's fragments are codes of its format before they are merged.
 inline bool has_codes_of_fragments(const FrameFormat& frame, const Conventions& conventions) {
-  return conventions.fragment_colors == Conventions::FragmentColors::in_codes && color_scale(frame.color) > 0;
+  return conventions.fragment_colors == Conventions::ColorNumbers::in_codes && color_scale(frame.color) > 0;
 }
 
 /// Maps a renderer's capture to OpenGL's conventions: reverses the rows of planes and fragments where `rows` is

@@ -40,8 +40,8 @@ bool settles_ties(const Conventions& c) {
   constexpr int kFinest = 10;
   const auto is_open = [&](const char* name) { return std::ranges::find(c.open, name) != c.open.end(); };
   if (c.tie_rule == Conventions::TieRule::any || is_open("subpixel_bits") || is_open("subpixel_rounding")) return false;
-  if (c.subpixel_bits < 1 || c.subpixel_bits > kFinest || c.subpixel_rounding != Conventions::Rounding::nearest)
-    return false;
+  if (c.subpixel_bits < 1 || c.subpixel_bits > kFinest) return false;
+  if (c.subpixel_rounding != Conventions::Rounding::nearest && c.rows != Conventions::Rows::from_bottom) return false;
   const glm::dvec2 sample = std::ldexp(1.0, c.subpixel_bits) * c.sample;
   return sample == glm::round(sample);
 }

@@ -32,7 +32,7 @@ struct Conventions {
   enum class LevelOfDetail { per_pixel, per_square, approximate };
   enum class Blending { in_float, in_codes };
   enum class FogFactor { per_fragment, per_vertex };
-  enum class FragmentColors { in_float, in_codes };
+  enum class ColorNumbers { in_float, in_codes };
   enum class Magnified { up_to_half, up_to_zero };
   enum class HalfWay { down, either };
 
@@ -64,7 +64,8 @@ struct Conventions {
   AlphaTest alpha_test = AlphaTest::in_codes;
   Blending blending = Blending::in_float;
   FogFactor fog_factor = FogFactor::per_fragment;
-  FragmentColors fragment_colors = FragmentColors::in_float;
+  ColorNumbers vertex_colors = ColorNumbers::in_float;
+  ColorNumbers fragment_colors = ColorNumbers::in_float;
   LevelOfDetail level_of_detail = LevelOfDetail::per_pixel;
   Magnified magnified = Magnified::up_to_half;
   HalfWay half_way_level = HalfWay::down;
@@ -116,7 +117,7 @@ inline constexpr std::array<Name, 2> kNamesOf<Conventions::Blending> = {"in_floa
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::FogFactor> = {"per_fragment", "per_vertex"};
 template <>
-inline constexpr std::array<Name, 2> kNamesOf<Conventions::FragmentColors> = {"in_float", "in_codes"};
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::ColorNumbers> = {"in_float", "in_codes"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Magnified> = {"up_to_half", "up_to_zero"};
 template <>
@@ -168,6 +169,8 @@ void each_choice(Visit visit) {
   visit(ConventionWords{"provoking_vertex", "the vertex that colours a flat triangle", false}, &C::provoking_vertex);
   visit(ConventionWords{"alpha_test", "the numbers that are compared", true}, &C::alpha_test);
   visit(ConventionWords{"blending", "the numbers that are blended", true}, &C::blending);
+  visit(ConventionWords{"vertex_colors", "the numbers that colours of vertices are (OpenGL 2.1, 2.14.9)", true},
+        &C::vertex_colors);
   visit(ConventionWords{"fragment_colors", "the numbers that colours and texels are before they are merged", true},
         &C::fragment_colors);
   visit(ConventionWords{"fog_factor", "where fog factors are computed (OpenGL 2.1, 3.10)", true}, &C::fog_factor);
@@ -193,8 +196,8 @@ inline constexpr ConventionWords kFloatOffsetWords{"float_offset_unit", "a polyg
                                                    true};
 
 /// Whether the declared tie rule and grid settle which triangle owns a sample on an edge: a grid of 1/2 to 1/1024 pixel
-/// on which the sample lies, and positions rounded to the nearest place. (Roundings down and up do not settle it: they
-/// swap in a picture whose rows count from the top.)
+/// on which the sample lies, and positions rounded to the nearest place, or rows from the bottom. (In a picture whose
+/// rows count from the top, down and up swap in y alone.)
 bool settles_ties(const Conventions& conventions);
 
 /// Text of a number of bits: "float", or the number.

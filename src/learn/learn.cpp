@@ -27,6 +27,7 @@ const std::vector<Probe>& probes() {
       {learn_depth_arithmetic, {"depth_arithmetic"}},
       {learn_provoking_vertex, {"provoking_vertex"}},
       {learn_alpha_test, {"alpha_test"}},
+      {learn_vertex_colors, {"vertex_colors"}},
       {learn_fragment_colors, {"fragment_colors"}},
       {learn_blending, {"blending"}},
       {learn_fog, {"fog_factor"}},
@@ -51,7 +52,8 @@ void learn_rows_by_any(Prober& prober) {
       return;
     } catch (const Unsupported& e) {
       if (func == DepthFunc::less) throw;
-      refused = fmt::format("of the probes; {} is unsupported: {}", name_of(func), e.what());
+      refused += refused.empty() ? "of the probes; " : "; ";
+      refused += fmt::format("{} is unsupported: {}", name_of(func), e.what());
     }
   }
 }
@@ -88,7 +90,7 @@ Learned learn(Renderer& renderer) {
     }
   }
   for (const char* words : {"polygons' cuts", "lines and points", "places of samples"}) {
-    prober.learned.rows.push_back({words, "open", "no picture of triangles tells"});
+    prober.learned.rows.push_back({words, "open", "pictures of triangles do not show it"});
   }
   return std::move(prober.learned);
 }

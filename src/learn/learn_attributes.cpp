@@ -38,8 +38,9 @@ Shares shares_at(int x, const C& conventions) {
 }
 // Whether the colour at column x is this grey, to 2 codes and 0.3 of a column.
 bool is_grey(const Plane<glm::vec4>& color, int x, double grey) {
+  constexpr double kMost = 2.0 / 255 + 0.3 / kFrameSize;
   const glm::dvec3 off = glm::abs(glm::dvec3(color(x, kFrameSize / 2)) - grey);
-  return std::max({off.r, off.g, off.b}) < 2.0 / 255 + 0.3 / kFrameSize;
+  return off.r < kMost && off.g < kMost && off.b < kMost;
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ void learn_clipping(Prober& prober) {
   const Plane<glm::vec4>& color = left.color;
   int first = kFrameSize, last = -1;
   for (int x = 0; x < kFrameSize; ++x) {
-    if (color(x, kFrameSize / 2).r <= 0.5f) continue;
+    if (!is_white(color(x, kFrameSize / 2))) continue;
     first = std::min(first, x), last = std::max(last, x);
   }
   const auto near_to = [](int column, int expected) { return std::abs(column - expected) <= 1; };
@@ -102,8 +103,7 @@ void learn_clipping(Prober& prober) {
 void learn_interpolation(Prober& prober) {
   const ConventionWords words = words_of("interpolation");
   const C& c = prober.learned.conventions;
-  if (prober.lacks(words, {"color_encoding"})) return;
-  if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
+  if (prober.lacks(words, {"color_encoding", kSampleWords.name}) || prober.lacks_linear_colors(words)) return;
   const Plane<glm::vec4> color = prober.draw(receding_wall("interpolation", 0, 1)).color;
   std::size_t perspective = 0, affine = 0;
   for (int x = 0; x < kFrameSize; ++x) {
@@ -124,8 +124,8 @@ void learn_fog(Prober& prober) {
   constexpr float kDensity = 0.125f;
   const ConventionWords words = words_of("fog_factor");
   C& c = prober.learned.conventions;
-  if (prober.lacks(words, {"color_encoding", "interpolation"})) return;
-  if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
+  if (prober.lacks(words, {"color_encoding", kSampleWords.name, "interpolation"})) return;
+  if (prober.lacks_linear_colors(words)) return;
   Scene scene = receding_wall("fog_factor", 1, 1);
   scene.draws[0].fog = Fog{.mode = Fog::Mode::exp, .color = glm::vec3(0), .density = kDensity};
   const Plane<glm::vec4> color = prober.draw(scene).color;
@@ -192,10 +192,11 @@ void learn_corners(Prober& prober) {
   prober.found(words, name_of(prober.learned.conventions.attribute_corners), evidence);
 }
 
-// Two flat triangles, one of each winding: counter-clockwise below the diagonal, clockwise above it.
+// Two flat triangles, one of each winding: counter-clockwise below the diagonal, clockwise above it. Beside them the
+// colours of their first and last corner, as the renderer encodes them.
 void learn_provoking_vertex(Prober& prober) {
   const ConventionWords words = words_of("provoking_vertex");
-  Scene scene = probe_frame("provoking_vertex", 16, 16);
+  Scene scene = probe_frame("provoking_vertex", 32, 16);
   constexpr float first = 0.2f, last = 1;
   const auto grey = [](float v) { return glm::vec4(glm::vec3(v), 1); };
   const auto of_corner = [&](double x, double y) {
@@ -204,14 +205,16 @@ void learn_provoking_vertex(Prober& prober) {
   };
   const std::array triangles = {of_corner(0, 0), of_corner(16, 16)};
   add_triangles(scene, triangles).shading = Shading::flat;
+  add_triangles(scene, rectangle({16, 0}, {24, 16}, 0.5, grey(first)));
+  add_triangles(scene, rectangle({24, 0}, {32, 16}, 0.5, grey(last)));
   const Plane<glm::vec4> color = prober.draw(scene).color;
-  const float left = color(4, 4).g, turned = color(12, 12).g;
+  const float left = color(4, 4).g, turned = color(12, 12).g, of_first = color(18, 8).g, of_last = color(26, 8).g;
   const auto is = [](float drawn, float v) { return std::abs(drawn - v) < 1.5f / 255; };
   std::string evidence = fmt::format("a flat triangle of 0.2, 0.5 and 1 is drawn in {:.2g}", left);
   const bool agree = turned == 0 || is(turned, left);  // 0: it is not drawn
   if (!agree) evidence += fmt::format(", a clockwise one in {:.2g}", turned);
-  if (!agree || (!is(left, first) && !is(left, last))) return prober.fits_none(words, evidence);
-  prober.learned.conventions.provoking_vertex = is(left, last) ? C::Provoking::last : C::Provoking::first;
+  if (!agree || (!is(left, of_first) && !is(left, of_last))) return prober.fits_none(words, evidence);
+  prober.learned.conventions.provoking_vertex = is(left, of_last) ? C::Provoking::last : C::Provoking::first;
   prober.found(words, name_of(prober.learned.conventions.provoking_vertex), evidence);
 }
 

@@ -126,7 +126,7 @@ void learn_colors(Prober& prober) {
   if (!fit.explains()) {
     prober.fits_none(rounding,
                      evidence + " at most are explained by one rounding and encoding" + said_of_other_codes(color));
-    prober.are_linear = largest_error(color) < kFewCodes;
+    if (!(largest_error(color) < kFewCodes)) prober.not_linear = "colours are encoded in no known way";
     return prober.open(encoding, "the rounding is open");
   }
   if (fit.order != std::array{0, 1, 2}) {
@@ -136,8 +136,42 @@ void learn_colors(Prober& prober) {
   }
   C& c = prober.learned.conventions;
   c.color_encoding = fit.encoding, c.color_rounding = fit.rounding;
+  if (fit.encoding == C::Encoding::srgb) prober.not_linear = "colours are encoded";
   prober.found(rounding, name_of(c.color_rounding), evidence);
   prober.found(encoding, name_of(c.color_encoding), evidence);
+}
+
+// Ramps from left to right, in each channel another one over three codes, which begin and end between two codes.
+void learn_vertex_colors(Prober& prober) {
+  const ConventionWords words = words_of("vertex_colors");
+  if (prober.lacks_linear_colors(words) || prober.lacks(words, {"color_rounding", kSampleWords.name})) return;
+  constexpr int kWidth = 128, kHeight = 8;
+  constexpr std::array<double, 3> kLeft = {40.4, 90.6, 140.4}, kRight = {43.6, 93.6, 143.4};  // [codes]
+  C& c = prober.learned.conventions;
+  const auto color = [](const std::array<double, 3>& codes) {
+    return glm::vec4(glm::dvec3(codes[0], codes[1], codes[2]) / 255.0, 1);
+  };
+  Scene scene = probe_frame("vertex_colors", kWidth, kHeight);
+  add_triangles(scene, quad({{{{0, 0, 0.5}, color(kLeft)},
+                              {{kWidth, 0, 0.5}, color(kRight)},
+                              {{kWidth, kHeight, 0.5}, color(kRight)},
+                              {{0, kHeight, 0.5}, color(kLeft)}}}));
+  const Plane<glm::vec4> left = prober.draw(scene).color;
+  int in_float = 0, in_codes = 0, all = 0;
+  for (int x = 0; x < kWidth; ++x) {
+    const double share = (x + c.sample.x) / kWidth;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double of_floats = glm::mix(kLeft[k], kRight[k], share),
+                   of_codes = glm::mix(std::round(kLeft[k]), std::round(kRight[k]), share);
+      const double code = std::round(255 * static_cast<double>(left(x, 1)[static_cast<glm::length_t>(k)]));
+      ++all, in_float += code == rounded(c.color_rounding, of_floats),
+          in_codes += code == rounded(c.color_rounding, of_codes);
+    }
+  }
+  const std::string evidence = fmt::format("{} of {} colours of ramps", std::max(in_float, in_codes), all);
+  if (20 * std::max(in_float, in_codes) < 19 * all) return prober.fits_none(words, evidence + " at most are explained");
+  c.vertex_colors = in_codes > in_float ? C::ColorNumbers::in_codes : C::ColorNumbers::in_float;
+  prober.found(words, name_of(c.vertex_colors), evidence);
 }
 
 // Alphas of 128.2 codes against 127.8, and of 128.4 against 128.1: greater as floats, and of one code. Truncated codes,
@@ -167,9 +201,9 @@ void learn_alpha_test(Prober& prober) {
 // of the exact blend over the codes that the first layer left.
 void learn_blending(Prober& prober) {
   const ConventionWords words = words_of("blending");
-  if (!prober.are_linear) return prober.open(words, kNotLinear);
+  if (prober.lacks_linear_colors(words)) return;
   const auto code_under = [](int i) { return (i * 37) % 255; };
-  const auto under = [&](int i) { return (static_cast<float>(code_under(i)) + 0.3f) / 255; };  // rounded either way
+  const auto under = [&](int i) { return (static_cast<float>(code_under(i)) + 0.3f) / 255; };  // no code
   const auto over = [](int i) { return static_cast<float>((i * 91 + 40) % 256) / 255; };
   const auto alpha = [](int i) { return (static_cast<float>((i * 53 + 7) % 255) + 0.4f) / 255; };
   const auto drawn = [&](BlendFactor of_alpha) {
@@ -192,11 +226,12 @@ void learn_blending(Prober& prober) {
   };
   const C::Rounding rounding = prober.learned.conventions.color_rounding;
   const Plane<glm::vec4> color = drawn_either_way();
-  const bool has_codes = prober.learned.conventions.fragment_colors == C::FragmentColors::in_codes;
+  const C& c = prober.learned.conventions;
+  const bool has_codes = c.vertex_colors == C::ColorNumbers::in_codes || c.fragment_colors == C::ColorNumbers::in_codes;
   double most = 0;
   for (int i = 0; i < kAll; ++i) {
     const double given = alpha(i), a = has_codes ? rounded(rounding, 255 * given) / 255 : given;
-    const double first = a * 255 * over(i) + (1 - a) * code_under(i);
+    const double first = a * 255 * over(i) + (1 - a) * rounded(rounding, code_under(i) + 0.3);
     const double exact = a * 255 * over(i) + (1 - a) * rounded(rounding, first);
     most = farther(most, 255 * static_cast<double>(pixel_of(color, i).r) - exact);
   }

@@ -58,8 +58,8 @@ std::size_t fitting(C::DepthRange range, const std::vector<double>& given, const
 
 constexpr std::array kRoundings = {C::Rounding::nearest, C::Rounding::down, C::Rounding::up};
 
-// Multiples of 2^-16 below 1/4 and above 3/5: n bits' code z (2^n - 1) lies z below a whole number, so that the nearest
-// code is the upper one of the first half, the lower one of the second.
+// Multiples of 2^-16, below 1/4 and above 3/5: the nearest code of n bits is the upper one in the first half, the lower
+// one in the second, for z (2^n - 1) lies z below a whole number.
 std::vector<double> given_depths() {
   std::vector<double> out;
   for (int i = 0; i < 128; ++i) out.push_back((2000 + 97 * i) / 65536.0);
@@ -67,19 +67,28 @@ std::vector<double> given_depths() {
   return out;
 }
 
-// Counts of depths as codes of n bits: codes, up to float's rounding; less than a code from the given depth; equal to
-// each rounding of the given depth.
+// Largest rounding of a depth that is left as a float in the renderer's range [window z].
+double float_rounding(double z, C::DepthRange range) {
+  const double scale = range == C::DepthRange::minus_one_to_one ? 2 : 1;
+  const auto stored = static_cast<float>(std::abs(range == C::DepthRange::zero_to_one   ? z
+                                                  : range == C::DepthRange::one_to_zero ? 1 - z
+                                                                                        : 2 * z - 1));
+  return static_cast<double>(std::nextafter(stored, 2.0f) - stored) / 2 / scale;
+}
+
+// Counts of depths as codes of n bits: those that are codes, but for float_rounding(); those within a code of the given
+// depth; those equal to each rounding of it.
 struct Codes {
   std::size_t codes = 0, near = 0;
   std::array<std::size_t, kRoundings.size()> fits{};
   std::size_t most() const { return *std::ranges::max_element(fits); }
 };
-Codes codes_of(double bits, const std::vector<double>& given, const std::vector<double>& left) {
+Codes codes_of(double bits, const std::vector<double>& given, const std::vector<double>& left, C::DepthRange range) {
   const double scale = std::ldexp(1.0, static_cast<int>(bits)) - 1;
   Codes out;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const double code = std::round(left[i] * scale), exact = given[i] * scale;
-    out.codes += std::abs(left[i] * scale - code) < 0.26 ? 1 : 0;
+    out.codes += std::abs(left[i] * scale - code) < 0.01 + scale * float_rounding(left[i], range) ? 1 : 0;
     out.near += std::abs(code - exact) < 1 ? 1 : 0;
     for (std::size_t k = 0; k < kRoundings.size(); ++k) out.fits[k] += code == rounded(kRoundings[k], exact) ? 1 : 0;
   }
@@ -99,7 +108,7 @@ void learn_rounding(Prober& prober, const Codes& codes, std::size_t n) {
 }
 
 // Depth format and rounding of a renderer that leaves 24-bit codes where a 24-bit frame asks for them. A 16-bit frame
-// tells them: with 24 bits, float arithmetic cannot tell the nearest code from the one above.
+// shows the rounding, which float arithmetic hides at 24 bits.
 void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes) {
   C& c = prober.learned.conventions;
   const std::size_t n = given.size();
@@ -110,7 +119,7 @@ void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes
   const std::string of_24 = fmt::format("{} of {} depths are within a code of 24 bits", codes.near, n);
   try {
     const std::vector<double> left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16);
-    const Codes of_16 = codes_of(16, given, left), still = codes_of(24, given, left);
+    const Codes of_16 = codes_of(16, given, left, c.depth_range), still = codes_of(24, given, left, c.depth_range);
     if (of_16.codes == n) {
       for (std::size_t k = 0; k < codes.fits.size(); ++k) codes.fits[k] += of_16.fits[k];
       found(C::Depth::as_asked, of_24 + ", of 16 bits where those are asked for");
@@ -130,9 +139,12 @@ void learn_format(Prober& prober) {
   const ConventionWords format = words_of("depth_format"), rounding = words_of("depth_rounding");
   const std::vector<double> given = given_depths();
   const std::vector<double> left = depths_of(prober, "depth_codes", given);
-  if (depths_of(prober, "depth_codes", given) != left) prober.unexplained("one scene's depths, drawn twice, differ");
+  const auto is_same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  if (!std::ranges::equal(depths_of(prober, "depth_codes", given), left, is_same))
+    prober.unexplained("one scene's depths, drawn twice, differ");
   const std::size_t n = given.size();
-  const Codes of_16 = codes_of(16, given, left), of_24 = codes_of(24, given, left);
+  const C::DepthRange range = prober.learned.conventions.depth_range;
+  const Codes of_16 = codes_of(16, given, left, range), of_24 = codes_of(24, given, left, range);
   std::size_t is_float = 0;  // multiples of 2^-16 are
   for (std::size_t i = 0; i < n; ++i) is_float += left[i] == given[i] ? 1 : 0;
   const auto take = [&](C::Depth found, std::size_t fits, const char* as) {
@@ -309,9 +321,9 @@ void count(Prober& prober, glm::ivec2 size, const std::vector<SlopedTriangle>& t
 void learn_depth_arithmetic(Prober& prober) {
   const ConventionWords words = words_of("depth_arithmetic");
   C& c = prober.learned.conventions;
-  if (prober.lacks(words, {"depth_format", "depth_rounding"})) return;
+  if (prober.lacks(words, {"depth_format", "depth_rounding", kSampleWords.name})) return;
   constexpr int kFinest = 10;  // places at multiples of 2^-10 pixel are exact (probe_scene.h)
-  // Snapping does not move corners on the grid; off the grid, edge equations in float lose more.
+  // Corners on the grid where depths may use snapped ones; else off the grid, where edge equations in float lose more.
   const int bits = c.depth_corners != C::DepthCorners::as_they_are && c.subpixel_bits != C::kFloat
                        ? std::min(c.subpixel_bits, kFinest)
                        : kFinest;

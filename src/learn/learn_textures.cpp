@@ -78,7 +78,7 @@ WeightErrors weight_errors(Prober& prober) {
     if (x == kTexturedSize / 2) continue;  // on the diagonal
     const auto drawn = static_cast<double>(color(x, kTexturedSize / 2).r);
     const double error = drawn - texels_at(x + prober.learned.conventions.sample.x, 2);
-    out.codes.insert(std::lround(255 * drawn));
+    if (std::isfinite(drawn)) out.codes.insert(std::lround(255 * drawn));
     out.least = std::min(out.least, error), out.most = std::max(out.most, error),
     out.mean += error / (kTexturedSize - 1);
   }
@@ -102,16 +102,26 @@ bool are_of_rounding(const WeightErrors& errors, int bits) {
   return errors.most - errors.least <= 2 * step + 2 * kCode && std::abs(errors.mean) <= step / 2 + kCode;
 }
 
-// Largest difference of texels that are not filtered, multiplied by a grey, from those that the scene asks for [codes].
-double texels_off(Prober& prober, const std::string& name, int texels, auto code, float grey = 1) {
+// Greys of a picture's left and right side [codes].
+struct Ramp {
+  double left = 255, right = 255;
+};
+
+// Largest difference of texels that are not filtered, multiplied by greys, from those that the scene asks for [codes].
+double texels_off(Prober& prober, const std::string& name, int texels, auto code, Ramp grey = {}) {
   const int pixels = kTexturedSize / texels;  // of a texel
   Texture texture = texture_of(texels, code);
   texture.sampler.min = MinFilter::nearest, texture.sampler.mag = MagFilter::nearest;
   const auto drawn = [&] {
     Scene scene = textured_frame(name, texture, 1);
-    if (grey < 1) {
+    if (grey.left < 255) {
       scene.draws[0].texture->environment = TextureEnvironment::modulate;
-      std::ranges::fill(scene.meshes[0].colors, glm::vec4(glm::vec3(grey), 1));
+      Mesh& mesh = scene.meshes[0];
+      const auto [left, right] = std::ranges::minmax(mesh.positions, {}, &glm::vec3::x);
+      for (std::size_t i = 0; i < mesh.colors.size(); ++i) {
+        const double codes = mesh.positions[i].x < (left.x + right.x) / 2 ? grey.left : grey.right;
+        mesh.colors[i] = glm::vec4(glm::vec3(static_cast<float>(codes / 255)), 1);
+      }
     }
     return prober.draw(scene).color;
   };
@@ -122,11 +132,14 @@ double texels_off(Prober& prober, const std::string& name, int texels, auto code
     texture.sampler.wrap_s = texture.sampler.wrap_t = Wrap::repeat;  // no wrap mode acts
     color = drawn();
   }
+  const auto grey_at = [&](int x) {
+    return glm::mix(grey.left, grey.right, (x + prober.learned.conventions.sample.x) / kTexturedSize) / 255;
+  };
   const auto is_inside = [&](int at) { return at % pixels != 0 && at % pixels != pixels - 1; };
   double most = 0;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
-      const double exact = static_cast<double>(grey) * code(x / pixels, y / pixels);
+      const double exact = grey_at(x) * code(x / pixels, y / pixels);
       // Left out: the diagonal, which may be nobody's, and a texel's outer pixels, whose samples may lie on its border.
       if (x != y && is_inside(x) && is_inside(y))
         most = farther(most, 255 * static_cast<double>(color(x, y).r) - exact);
@@ -174,7 +187,7 @@ MeanErrors mean_errors(Prober& prober) {
 
 void learn_weights(Prober& prober) {
   const ConventionWords words = words_of("texture_bits");
-  if (!prober.are_linear) return prober.open(words, kNotLinear);
+  if (prober.lacks_linear_colors(words) || prober.lacks(words, {kSampleWords.name})) return;
   const auto [most, highest, step] = mean_errors(prober);
   const C& c = prober.learned.conventions;
   const std::string evidence =
@@ -198,6 +211,7 @@ void learn_weights(Prober& prober) {
   int bits = C::kFloat;
   if (!are_float) {
     const WeightErrors errors = weight_errors(prober);
+    if (!std::isfinite(errors.mean)) return prober.fits_none(words, evidence + "; some are no numbers");
     bits =
         std::min({static_cast<int>(std::floor(-std::log2(step))), bits_of(errors, c.color_rounding), kMostWeightBits});
     // Errors show their form where a step is two codes or more.
@@ -211,18 +225,18 @@ void learn_weights(Prober& prober) {
   prober.found(words, bits_text(bits), evidence);
 }
 
-// Grey of 100.4 codes times all codes. In codes, the grey is rounded, too.
+// Greys of 100 to 110 codes times all codes. In codes, the greys are rounded, too.
 void learn_fragment_colors(Prober& prober) {
   const ConventionWords words = words_of("fragment_colors");
-  if (!prober.are_linear) return prober.open(words, kNotLinear);
+  if (prober.lacks_linear_colors(words)) return;
   if (prober.lacks(words, {"color_rounding"})) return;
   C& c = prober.learned.conventions;
   const auto code = [](int x, int y) { return 16 * y + x; };
-  const double most = texels_off(prober, "fragment_colors", 16, code, 100.4f / 255);
+  const double most = texels_off(prober, "fragment_colors", 16, code, {100, 110});
   const double rounding = c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01;
   const std::string evidence = fmt::format("256 texels times a colour, {:.2f} codes off at most", most);
   if (!(most <= 2 * rounding)) return prober.fits_none(words, evidence);
-  c.fragment_colors = most <= rounding ? C::FragmentColors::in_float : C::FragmentColors::in_codes;
+  c.fragment_colors = most <= rounding ? C::ColorNumbers::in_float : C::ColorNumbers::in_codes;
   prober.found(words, name_of(c.fragment_colors), evidence);
 }
 
@@ -247,9 +261,8 @@ Scene floor_scene() {
   return out;
 }
 
-// Texture coordinates at a place of the window [pixels], perspective-correct, in the plane of the lower right triangle
-// or of the other.
-glm::dvec2 floor_st(glm::dvec2 p_win, bool lower) {
+// Texture coordinates at a place of the window [pixels], in the plane of the lower right triangle or of the other.
+glm::dvec2 floor_st(glm::dvec2 p_win, bool lower, C::Interpolation interpolation) {
   const glm::dvec2 at = p_win / static_cast<double>(kTexturedSize);
   const double u = at.x, v = at.y;
   const std::array<std::size_t, 3> corners = {0, lower ? 1u : 2u, lower ? 2u : 3u};
@@ -258,16 +271,17 @@ glm::dvec2 floor_st(glm::dvec2 p_win, bool lower) {
   double over = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const ProbeCorner& corner = kFloor[corners[i]];
-    const double q = weights[i] / corner.p.z;
+    const double q = interpolation == C::Interpolation::affine ? weights[i] : weights[i] / corner.p.z;
     sum += q * glm::dvec2(corner.texcoord), over += q;
   }
   return sum / over;
 }
 
-double floor_lambda(glm::dvec2 p_win, bool lower) {
+double floor_lambda(glm::dvec2 p_win, bool lower, C::Interpolation interpolation) {
   constexpr double h = 1e-3;  // pixels
   const auto derivative = [&](glm::dvec2 step) {
-    return glm::length(floor_st(p_win + step, lower) - floor_st(p_win - step, lower)) * kFloorTexture / (2 * h);
+    const glm::dvec2 over = floor_st(p_win + step, lower, interpolation) - floor_st(p_win - step, lower, interpolation);
+    return glm::length(over) * kFloorTexture / (2 * h);
   };
   return std::log2(std::max(derivative({h, 0}), derivative({0, h})));
 }
@@ -277,7 +291,10 @@ double floor_lambda(glm::dvec2 p_win, bool lower) {
 struct Levels {
   std::size_t pixels = 0, own = 0, of_square = 0, squares = 0, alike = 0;
 };
-Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample) {
+Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample, C::Interpolation interpolation) {
+  const auto lambda_at = [&](int x, int y, bool lower) {
+    return floor_lambda(glm::dvec2(x, y) + sample, lower, interpolation);
+  };
   const auto drawn = [&](int x, int y) { return std::round(255 * static_cast<double>(color(x, y).r) / 40); };
   const auto level = [](double lambda) { return std::clamp(std::ceil(lambda + 0.5) - 1, 0.0, 6.0); };
   Levels out;
@@ -289,13 +306,13 @@ Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample) {
       std::array<double, 4> found{};
       for (int k = 0; k < 4; ++k) {
         const glm::ivec2 at(left + k % 2, low + k / 2);
-        lambdas[static_cast<std::size_t>(k)] = floor_lambda(glm::dvec2(at) + sample, x > y);
+        lambdas[static_cast<std::size_t>(k)] = lambda_at(at.x, at.y, x > y);
         found[static_cast<std::size_t>(k)] = drawn(at.x, at.y);
       }
       const auto [least, most] = std::ranges::minmax(lambdas);
       const double is = drawn(x, y);
       ++out.pixels;
-      out.own += is == level(floor_lambda(glm::dvec2(x, y) + sample, x > y)) ? 1 : 0;
+      out.own += is == level(lambda_at(x, y, x > y)) ? 1 : 0;
       out.of_square += is >= level(least - 0.05) && is <= level(most + 0.01) ? 1 : 0;
       if (x != left || y != low || level(least) == level(most)) continue;
       ++out.squares;
@@ -309,17 +326,23 @@ Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample) {
 
 void learn_levels(Prober& prober) {
   C& c = prober.learned.conventions;
-  if (!prober.are_linear) return prober.open(words_of("level_of_detail"), kNotLinear);
-  const Levels levels = levels_of(prober.draw(floor_scene()).color, c.sample);
+  const ConventionWords words = words_of("level_of_detail");
+  if (prober.lacks_linear_colors(words) || prober.lacks(words, {kSampleWords.name, "interpolation"})) return;
+  const Plane<glm::vec4> color = prober.draw(floor_scene()).color;
+  Levels levels = levels_of(color, c.sample, c.interpolation);
+  // Without perspective, levels may still be those of the surface.
+  if (const Levels of_surface = levels_of(color, c.sample, C::Interpolation::perspective);
+      of_surface.of_square > levels.of_square)
+    levels = of_surface;
   using enum C::LevelOfDetail;
   const bool one_each = levels.squares > 0 && levels.alike * 10 >= levels.squares * 9;
   const std::string evidence = fmt::format(
       "{} of {} pixels have a level of their square of 2 x 2, {} their own; "
       "{} of {} squares with several levels are drawn in one",
       levels.of_square, levels.pixels, levels.own, levels.alike, levels.squares);
-  if (2 * levels.of_square < levels.pixels) return prober.fits_none(words_of("level_of_detail"), evidence);
+  if (2 * levels.of_square < levels.pixels) return prober.fits_none(words, evidence);
   c.level_of_detail = levels.of_square < levels.pixels ? approximate : one_each ? per_square : per_pixel;
-  prober.found(words_of("level_of_detail"), name_of(c.level_of_detail), evidence);
+  prober.found(words, name_of(c.level_of_detail), evidence);
 }
 
 // Texels of 0 and 255 by turns, at a level of detail of 1/4: the linear filter of magnification mixes them, the nearest
@@ -336,7 +359,7 @@ void learn_magnification(Prober& prober) {
     mixed += red > 0.05f && red < 0.95f ? 1 : 0;
     unmixed += std::abs(red) <= 0.05f || std::abs(red - 1) <= 0.05f ? 1 : 0;
   }
-  const std::string evidence = fmt::format("{} of 46 texels are mixed at a level of detail of 1/4", mixed);
+  const std::string evidence = fmt::format("{} of 46 pixels mix texels at a level of detail of 1/4", mixed);
   if (mixed + unmixed < 46) return prober.fits_none(words, evidence);
   C& c = prober.learned.conventions;
   c.magnified = mixed > 12 ? C::Magnified::up_to_half : C::Magnified::up_to_zero;
@@ -345,7 +368,7 @@ void learn_magnification(Prober& prober) {
 
 void learn_half_way(Prober& prober) {
   const ConventionWords words = words_of("half_way_level");
-  if (!prober.are_linear) return prober.open(words, kNotLinear);
+  if (prober.lacks_linear_colors(words)) return;
   std::array<double, 3> levels{};
   for (int i = 0; i < 3; ++i) {
     Texture texture = texture_of(64, [](int, int) { return 0; });

@@ -55,6 +55,12 @@ bool Prober::lacks(const ConventionWords& words, std::initializer_list<std::stri
   return true;
 }
 
+bool Prober::lacks_linear_colors(const ConventionWords& words) {
+  if (not_linear.empty()) return false;
+  open(words, not_linear);
+  return true;
+}
+
 void Prober::fits_none(const ConventionWords& words, const std::string& evidence) {
   open(words, evidence);
   learned.rows.back().value = "none fits";

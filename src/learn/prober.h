@@ -51,16 +51,18 @@ class Prober {
   /// Adds a row "none fits", and a finding: no value of the convention explains what the renderer shows.
   void fits_none(const ConventionWords& words, const std::string& evidence);
   bool is_open(std::string_view name) const;
-  /// Whether a convention is open that the probe of `words` goes by; then adds the row "open".
+  /// Whether any of `conventions`, by which the probe of `words` goes, is open; if so, opens `words`, too.
   bool lacks(const ConventionWords& words, std::initializer_list<std::string_view> conventions);
+  /// Whether colours are encoded, or in no known way 4 codes or more off linear; if so, opens `words`.
+  bool lacks_linear_colors(const ConventionWords& words);
   /// Adds a finding that belongs to no single convention.
   void unexplained(std::string finding) { learned.conventions.unexplained.push_back(std::move(finding)); }
 
   Learned learned;
   /// Depth function of all draws of the probes. Where draws lie over each other, the later one is the nearer.
   DepthFunc depth_func = DepthFunc::always;
-  /// False: no known encoding, and colours 4 codes or more from linear: probes of mixed colours are skipped.
-  bool are_linear = true;
+  /// Why probes of mixed colours are skipped; empty: colours are linear, or less than 4 codes off.
+  std::string not_linear;
   /// The first probe's picture has one colour: no other probe is drawn.
   bool sees_nothing = false;
 
@@ -68,8 +70,6 @@ class Prober {
   Capture captured(const Scene& probe);  // names the probe where the renderer fails
   Renderer& renderer_;
 };
-
-inline constexpr const char* kNotLinear = "colours are encoded in no known way";
 
 /// The larger of `most` and |off|, where NaN is infinite.
 inline double farther(double most, double off) {
@@ -98,6 +98,7 @@ void learn_offset_unit(Prober& prober);
 void learn_float_offset_unit(Prober& prober);
 void learn_weights(Prober& prober);
 void learn_fragment_colors(Prober& prober);
+void learn_vertex_colors(Prober& prober);
 void learn_levels(Prober& prober);
 void learn_magnification(Prober& prober);
 void learn_half_way(Prober& prober);

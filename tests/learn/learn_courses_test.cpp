@@ -27,6 +27,29 @@ TEST(LearnCourses, DepthsThatAreKeptAsFloatsAreFloats) {
   EXPECT_EQ(std::ranges::count(found.open, "depth_arithmetic"), 0);
 }
 
+// Codes of 24 bits, left as floats, as glReadPixels() gives them.
+TEST(LearnCourses, CodesThatAreLeftAsFloatsAreCodes) {
+  const auto altered = [](double (*left)(double)) {
+    return learned(std::make_unique<Altered>(pipeline::make_pipeline(), [left](Capture& c) {
+      for (double& z : c.planes.depth.values()) z = left(z);
+    }));
+  };
+  const auto in_float = [](double z) { return static_cast<double>(static_cast<float>(z)); };
+  EXPECT_EQ(altered(in_float).depth_format, C::Depth::as_asked);
+  EXPECT_EQ(altered([](double z) { return static_cast<double>(static_cast<float>(2 * z - 1)); }).depth_format,
+            C::Depth::as_asked);
+  EXPECT_EQ(altered([](double z) { return static_cast<double>(static_cast<float>(1 - z)); }).depth_format,
+            C::Depth::as_asked);
+  const auto to_floats = [](Scene& scene) { scene.frame.depth = DepthFormat::z32f; };
+  OfAlteredScenes floats;
+  floats.before = to_floats;
+  EXPECT_EQ(learn(floats).conventions.depth_format, C::Depth::z32f);
+  floats.after = [](const Scene&, Capture& out) {
+    for (double& z : out.planes.depth.values()) z = 2 * z - 1;
+  };
+  EXPECT_EQ(learn(floats).conventions.depth_format, C::Depth::z32f);
+}
+
 // Pixels of a picture whose rows count from the top, sampled at whole numbers: at their upper left corners.
 TEST(LearnCourses, ASampleMayLieAtThePixelsUpperBorder) {
   for (const glm::dvec2 sample : {glm::dvec2(1, 0.5), glm::dvec2(0.5, 1)}) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include <gmock/gmock.h>
+
 #include "tests/learn/altered_renderers.h"
 #include "tests/learn/other_colors.h"
 
@@ -18,6 +20,44 @@ pipeline::Shaded shade_by_distance(const pipeline::Surface& surface, bool front,
   return {pipeline::shade<float>(surface, front, other)};
 }
 
+// Mixes of encoded colours are not judged by linear ones.
+TEST(LearnColors, EncodedOnesLeaveWhatMixesColoursOpen) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) { scene.frame.color = ColorFormat::rgba32f; };
+  renderer.after = [](const Scene&, Capture& out) {
+    for (glm::vec4& color : out.planes.color.values()) {
+      for (glm::length_t c = 0; c < 3; ++c)
+        color[c] = static_cast<float>(std::nearbyint(255 * srgb_encoded(static_cast<double>(color[c]))) / 255);
+    }
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.color_encoding, C::Encoding::srgb);
+  EXPECT_EQ(found.provoking_vertex, C::Provoking::last);
+  EXPECT_THAT(found.unexplained, testing::IsEmpty());
+  EXPECT_THAT(found.open, testing::IsSupersetOf({"blending", "texture_bits", "fragment_colors", "level_of_detail",
+                                                 "half_way_level", "interpolation", "fog_factor"}));
+}
+
+float code_above(float v, float scale) { return std::ceil(std::clamp(v, 0.0f, 1.0f) * scale - 1e-4f); }
+
+// Blends in float over codes that are rounded up.
+TEST(LearnColors, RoundedUpMayBeBlendedInFloat) {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.merge = [](const pipeline::Color<float>& c, float scale) -> pipeline::Color<float> {
+    return {code_above(c.r, scale), code_above(c.g, scale), code_above(c.b, scale), code_above(c.a, scale)};
+  };
+  stages.blend = [](const Blend&, const pipeline::Color<float>& over, const pipeline::Color<float>& stored,
+                    float scale) -> pipeline::Color<float> {
+    const auto mixed = [&](float c, float under) {
+      return code_above(over.a * c + (1 - over.a) * under / scale, scale);
+    };
+    return {mixed(over.r, stored.r), mixed(over.g, stored.g), mixed(over.b, stored.b), mixed(over.a, stored.a)};
+  };
+  const C found = learned(pipeline::make_pipeline(stages));
+  EXPECT_EQ(found.color_rounding, C::Rounding::up);
+  EXPECT_EQ(found.blending, C::Blending::in_float);
+}
+
 TEST(LearnFog, FactorsOfVerticesAreFound) {
   C expected = ours();
   EXPECT_EQ(learned(pipeline::make_pipeline()), expected);
@@ -27,8 +67,14 @@ TEST(LearnFog, FactorsOfVerticesAreFound) {
 
 TEST(LearnFragmentColors, CodesAreFound) {
   C expected = ours();
-  expected.fragment_colors = C::FragmentColors::in_codes;
+  expected.fragment_colors = C::ColorNumbers::in_codes;
   EXPECT_EQ(learned(pipeline::make_pipeline(test::stages_in_codes())), expected);
+}
+
+TEST(LearnVertexColors, CodesAreFound) {
+  C expected = ours();
+  expected.vertex_colors = C::ColorNumbers::in_codes;
+  EXPECT_EQ(learned(test::make_vertices_in_codes()), expected);
 }
 
 // Products that are shifted for divided: (a * b) >> 8.

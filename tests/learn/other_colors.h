@@ -60,6 +60,28 @@ inline pipeline::Color<float> as_codes(const pipeline::Color<float>& color) {
   return {code(color.r), code(color.g), code(color.b), code(color.a)};
 }
 
+/// Stage light, whose colours are codes of 8 bits, so many of them too bright.
+template <int too_bright>
+void light_in_codes(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
+                    std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
+  const std::size_t first = out.size();
+  pipeline::light(scene, draw, mesh, lights, vertices, out);
+  for (std::size_t i = first; i < out.size(); ++i) {
+    Vec4<float>& color = out[i].color();
+    const pipeline::Color<float> code = as_codes({color.r, color.g, color.b, color.a});
+    constexpr float kMore = too_bright / 255.0f;
+    color = {code.r + kMore, code.g + kMore, code.b + kMore, code.a};
+  }
+}
+
+/// `vertex_colors` in_codes, in frames of 8 bits.
+template <int too_bright = 0>
+std::unique_ptr<Renderer> make_vertices_in_codes() {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.light = light_in_codes<too_bright>;
+  return pipeline::make_pipeline(stages);
+}
+
 inline pipeline::FilteredTexel<float> texel_in_codes(const pipeline::TextureSetup& t,
                                                      const pipeline::TexCoords<float>& at,
                                                      const pipeline::Gradients<float>& g) {

@@ -9,50 +9,12 @@
 #include "reference/arithmetic/error_in_float.h"
 #include "reference/oracle/oracle.h"
 #include "scene/scene.h"
+#include "tests/oracle/window_answers.h"
 
 namespace plumbline::math {
 namespace {
 
 using C = Conventions;
-
-constexpr int kSize = 32;
-
-/// Triangles in the window's coordinates, with a depth for each corner, from black to white along x.
-Scene window_scene(const std::vector<std::array<glm::vec3, 3>>& triangles) {
-  Scene scene;
-  scene.name = "window";
-  scene.frame.width = scene.frame.height = kSize;
-  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
-  scene.projection = Orthographic{0, kSize, 0, kSize, 0, 1};
-  Mesh mesh;
-  for (const auto& t : triangles) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const glm::vec3 p : t) {
-      mesh.positions.emplace_back(p.x, p.y, -p.z);
-      mesh.colors.emplace_back(glm::vec3(p.x / kSize), 1);
-    }
-    mesh.triangles.emplace_back(first, first + 1, first + 2);
-  }
-  mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
-  scene.meshes = {mesh};
-  Draw draw;
-  draw.lit = false;
-  scene.draws = {draw};
-  return scene;
-}
-
-Legal legal(const Scene& scene, const C& conventions) {
-  Request request;
-  request.legal = true;
-  request.conventions = conventions;
-  return legal_by_boxes(scene, request);
-}
-
-std::size_t open_pixels(const Legal& of) {
-  std::size_t out = 0;
-  for (std::size_t i = 0; i < of.certain.size(); ++i) out += of.certain.values()[i] != of.possible.values()[i] ? 1 : 0;
-  return out;
-}
 
 const std::vector<std::array<glm::vec3, 3>> kOne = {
     {glm::vec3(3.2f, 2.1f, 0.5f), {29.7f, 5.3f, 0.5f}, {9.9f, 27.8f, 0.5f}}};
@@ -309,83 +271,6 @@ TEST(OracleConventions, SharedEdgesAreCoveredOnce) {
   EXPECT_EQ(one.certain(10, 10), 0u);
   EXPECT_EQ(one.possible(10, 10), 1u);
   EXPECT_EQ(one.shared(10, 10), 0u);
-}
-
-C declared(C::TieRule rule, int bits = 8) {
-  C out;
-  out.tie_rule = rule;
-  out.subpixel_bits = bits;
-  return out;
-}
-
-const std::vector<std::array<glm::vec3, 3>> kSquare = {
-    {glm::vec3(4.5f, 4.5f, 0.5f), {28.5f, 4.5f, 0.5f}, {28.5f, 28.5f, 0.5f}},
-    {glm::vec3(4.5f, 4.5f, 0.5f), {28.5f, 28.5f, 0.5f}, {4.5f, 28.5f, 0.5f}}};
-
-// A square whose borders run through samples: a declared tie rule says which of them are in, and in which triangle.
-TEST(OracleConventions, ADeclaredTieRuleSettlesSamplesOnEdges) {
-  using enum C::TieRule;
-  const Scene scene = window_scene(kSquare);
-  EXPECT_EQ(open_pixels(legal(scene, {})), 4u * 24) << "by any rule, the border is open";
-  struct Case {
-    C::TieRule rule;
-    std::uint32_t left, right, bottom, top, inner;
-    std::int32_t owner;  // of the diagonal, whose lower triangle is the first
-  };
-  for (const Case& c : {Case{left_bottom, 1, 0, 1, 0, 1, 0}, Case{left_top, 1, 0, 0, 1, 1, 0},
-                        Case{right_bottom, 0, 1, 1, 0, 1, 1}, Case{right_top, 0, 1, 0, 1, 1, 1},
-                        Case{inclusive, 1, 1, 1, 1, 2, 0}, Case{exclusive, 0, 0, 0, 0, 0, kBackground}}) {
-    const Legal by = legal(scene, declared(c.rule));
-    EXPECT_EQ(open_pixels(by), 0u) << name_of(c.rule);
-    EXPECT_EQ(by.certain(4, 16), c.left) << name_of(c.rule);
-    EXPECT_EQ(by.certain(28, 16), c.right) << name_of(c.rule);
-    EXPECT_EQ(by.certain(16, 4), c.bottom) << name_of(c.rule);
-    EXPECT_EQ(by.certain(16, 28), c.top) << name_of(c.rule);
-    EXPECT_EQ(by.certain(16, 16), c.inner) << name_of(c.rule);
-    const std::size_t winners = c.rule == inclusive ? 2 : 1;  // depths of one plane may compare either way
-    ASSERT_EQ(by.at(16, 16).size(), winners) << name_of(c.rule);
-    EXPECT_EQ(by.at(16, 16)[0].primitive, c.owner) << name_of(c.rule);
-  }
-}
-
-// Samples on edges stay open where the grid is unknown, or float arithmetic decides to which grid point a corner
-// snaps.
-TEST(OracleConventions, ATieRuleSettlesNothingWithoutPlaces) {
-  const Scene scene = window_scene(kSquare);
-  const std::size_t any = open_pixels(legal(scene, {}));
-  C no_grid = declared(C::TieRule::left_bottom, C::kFloat), open_bits = declared(C::TieRule::left_bottom),
-    down = open_bits, off_grid = open_bits;
-  open_bits.open = {"subpixel_bits"};
-  down.subpixel_rounding = C::Rounding::down;
-  EXPECT_EQ(open_pixels(legal(scene, no_grid)), any);
-  EXPECT_EQ(open_pixels(legal(scene, open_bits)), any);
-  EXPECT_GE(open_pixels(legal(scene, down)), any);
-  off_grid.sample = {0.501, 0.5};
-  EXPECT_EQ(open_pixels(legal(scene, off_grid)), open_pixels(legal(scene, [&] {
-              C of_any = off_grid;
-              of_any.tie_rule = C::TieRule::any;
-              return of_any;
-            }())));
-  // Corners in the middle between two places of the grid.
-  std::vector<std::array<glm::vec3, 3>> between = kSquare;
-  for (auto& t : between)
-    for (glm::vec3& p : t) p += glm::vec3(1.0f / 512, 1.0f / 512, 0);
-  EXPECT_GT(open_pixels(legal(window_scene(between), declared(C::TieRule::left_bottom))), 90u);
-  // A coarser grid takes them to places for certain.
-  EXPECT_EQ(open_pixels(legal(window_scene(between), declared(C::TieRule::left_bottom, 4))), 0u);
-}
-
-// The diagonal's neighbours: one has a corner in the middle between two places. What the other leaves is still its.
-TEST(OracleConventions, AnUnknownCornerLeavesSharedEdgesCoveredOnce) {
-  std::vector<std::array<glm::vec3, 3>> half = kSquare;
-  half[1][2].x += 1.0f / 512;
-  const Legal by = legal(window_scene(half), declared(C::TieRule::right_top));  // the diagonal is the second's
-  for (int i = 6; i < 27; ++i) {
-    EXPECT_EQ(by.certain(i, i), 1u) << i;
-    EXPECT_EQ(by.possible(i, i), 1u) << i;
-    ASSERT_EQ(by.at(i, i).size(), 1u) << i;
-    EXPECT_EQ(by.at(i, i)[0].primitive, 1) << i;
-  }
 }
 
 }  // namespace

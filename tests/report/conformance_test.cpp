@@ -52,6 +52,10 @@ TEST(Conformance, OfAScene) {
   EXPECT_EQ(conformance_of(proves_nothing), Conformance::unable);
   EXPECT_TRUE(
       conformance_text(std::vector{proves_nothing}).ends_with("in which nothing is drawn holds, too 1 (a/b)\n"));
+  SceneVerdict of_any_color = verdict("a/b", {open, depth});
+  EXPECT_EQ(conformance_of(of_any_color), Conformance::holds);
+  of_any_color.knows_no_color = true;
+  EXPECT_EQ(conformance_of(of_any_color), Conformance::unable);
   proves_nothing.comparisons.push_back(kIllegal);
   EXPECT_EQ(conformance_of(proves_nothing), Conformance::differs);
   proves_nothing.comparisons = {open, kHolds};

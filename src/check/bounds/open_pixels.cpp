@@ -16,6 +16,23 @@ bool tests_alpha(const Scene& scene) {
   return std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
 }
 
+bool knows_no_color(const Legal& legal) {
+  constexpr float kHalfOfRange = 0.5f;
+  if (legal.empty() || !legal.color_lo.empty()) return false;
+  bool has_surface = false;
+  for (int y = 0; y < legal.certain.height(); ++y) {
+    for (int x = 0; x < legal.certain.width(); ++x) {
+      const std::span<const LegalAnswer> answers = legal.at(x, y);
+      const auto is_drawn = [](const LegalAnswer& a) { return a.primitive != kBackground; };
+      if (std::ranges::none_of(answers, is_drawn)) continue;
+      const auto is_known = [](const LegalAnswer& a) { return a.color_bound < kHalfOfRange; };
+      if (std::ranges::all_of(answers, is_known)) return false;
+      has_surface = true;
+    }
+  }
+  return has_surface;
+}
+
 bool may_be_empty(const Legal& legal) {
   if (legal.empty() || !legal.color_lo.empty()) return false;
   bool is_all_background = true;

@@ -193,6 +193,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
   SceneVerdict verdict{scene.name, scene.path, joined(passes), 0};
   for (const SceneVerdict& pass : passes) verdict.seconds += pass.seconds;
   verdict.empty_holds = std::ranges::all_of(passes, &SceneVerdict::empty_holds);
+  verdict.knows_no_color = std::ranges::all_of(passes, &SceneVerdict::knows_no_color);
   const auto skip = [&](const JudgeId& name, Outcome outcome, const std::string& why) {
     verdict.comparisons.push_back(not_judged(scene.name, name, Stage::resolve, outcome, why));
   };

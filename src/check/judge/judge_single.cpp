@@ -165,6 +165,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
   }
   if (b.legal == nullptr) b.legal = &b.where_apart;
   verdict.empty_holds = may_be_empty(*b.legal);
+  verdict.knows_no_color = knows_no_color(*b.legal);
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (theirs.refusals[i]) {
       nothing(references[i].name, *theirs.refusals[i]);

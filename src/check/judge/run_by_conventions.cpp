@@ -274,7 +274,9 @@ bool fogs_by_vertices(const Scene& scene, const Conventions& conventions) {
 }
 
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage) {
-  if (stage <= Stage::clip) return stage == Stage::clip && has_other_volume(conventions);
+  const bool has_codes = has_codes_of_vertices(scene.frame, conventions);
+  if (stage <= Stage::clip)
+    return (stage == Stage::clip && has_other_volume(conventions)) || (stage >= Stage::light && has_codes);
   const auto is_moved = [](const Draw& draw) { return draw.polygon_offset.units != 0; };
   const auto unit = [&](const Conventions& by) {
     const bool of_floats = scene.frame.depth == DepthFormat::z32f;
@@ -286,7 +288,7 @@ bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage s
   if (stage >= Stage::depth && is_other_unit && std::ranges::any_of(scene.draws, is_moved)) return true;
   if (stage >= Stage::shade && stage != Stage::visibility && fogs_by_vertices(scene, conventions)) return true;
   const bool has_colors = stage >= Stage::attributes && (stage != Stage::visibility || tests_alpha(scene));
-  if (has_colors && has_codes_of_fragments(scene.frame, conventions)) return true;
+  if (has_colors && (has_codes || has_codes_of_fragments(scene.frame, conventions))) return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
 }
@@ -295,7 +297,8 @@ bool knows_ties(const Scene& scene, const Conventions& c) {
   using enum C::TieRule;
   const bool is_of_sides =
       c.tie_rule == left_bottom || c.tie_rule == left_top || c.tie_rule == right_bottom || c.tie_rule == right_top;
-  return is_of_sides && settles_ties(c) && c.subpixel_bits <= 8 && !scene.frame.pass.sample;
+  const bool is_to_nearest = c.subpixel_rounding == C::Rounding::nearest;
+  return is_of_sides && settles_ties(c) && is_to_nearest && c.subpixel_bits <= 8 && !scene.frame.pass.sample;
 }
 
 Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, const Capture& in,

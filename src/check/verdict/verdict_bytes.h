@@ -25,7 +25,8 @@ void visit(Archive& archive, Comparison& c) {
 }
 template <class Archive>
 void visit(Archive& archive, SceneVerdict& v) {
-  visit_all(archive, v.scene, v.path, v.comparisons, v.seconds, v.empty_holds, v.failure, v.repeat, v.causes);
+  visit_all(archive, v.scene, v.path, v.comparisons, v.seconds, v.empty_holds, v.knows_no_color, v.failure, v.repeat,
+            v.causes);
 }
 
 }  // namespace plumbline::check

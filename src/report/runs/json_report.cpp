@@ -44,6 +44,7 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
   for (const check::SceneVerdict& verdict : verdicts) {
     Json scene{{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}};
     if (verdict.empty_holds) scene["empty_holds"] = true;
+    if (verdict.knows_no_color) scene["knows_no_color"] = true;
     if (!verdict.failure.empty()) scene["failure"] = verdict.failure, scene["repeat"] = verdict.repeat;
     if (!verdict.causes.empty()) scene["cause"] = verdict.causes.front();
     out["scenes"].push_back(std::move(scene));

@@ -140,12 +140,13 @@ CheckRun read_run(const std::filesystem::path& path) {
   for (const JsonNode& node : root["failures"].elements(0, kMostRows)) run.head.failures.push_back(node.text());
   run.head.shard = shard_at(root["shard"]);
   for (const JsonNode& node : root["scenes"].elements(0, kMostRows)) {
-    node.only({"scene", "file", "seconds", "empty_holds", "failure", "repeat", "cause"});
+    node.only({"scene", "file", "seconds", "empty_holds", "knows_no_color", "failure", "repeat", "cause"});
     SceneVerdict& verdict = run.verdicts.emplace_back();
     verdict.scene = node["scene"].text();
     verdict.path = node["file"].text();
     verdict.seconds = node["seconds"].number(0, kLargest);
     if (const auto empty_holds = node.find("empty_holds")) verdict.empty_holds = empty_holds->boolean();
+    if (const auto no_color = node.find("knows_no_color")) verdict.knows_no_color = no_color->boolean();
     verdict.failure = text_if_any(node, "failure");
     verdict.repeat = text_if_any(node, "repeat");
     if (const std::string cause = text_if_any(node, "cause"); !cause.empty()) verdict.causes = {cause};

@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, std::size_t>> by_count(const Counts& counts) 
 }
 
 // Whether rows of the frame leave open what it holds: every item compared has several legal answers, or so has every
-// colour of the frame, or a program that draws nothing holds.
+// colour of the frame or of its surfaces, or a program that draws nothing holds.
 bool is_open(const check::SceneVerdict& verdict) {
   std::size_t rows = 0, open = 0, colors = 0, open_colors = 0;
   for (const check::Comparison& c : verdict.comparisons) {
@@ -35,7 +35,8 @@ bool is_open(const check::SceneVerdict& verdict) {
     ++rows;
     open += is_open ? 1 : 0;
     colors += is_color ? 1 : 0;
-    open_colors += is_color && is_open && is_all ? 1 : 0;
+    const bool is_open_color = c.outcome == check::Outcome::ambiguous_only && (is_all || verdict.knows_no_color);
+    open_colors += is_color && is_open_color ? 1 : 0;
   }
   return rows > 0 && (open == rows || (colors > 0 && open_colors == colors));
 }

@@ -17,6 +17,7 @@
 #include "matrix/matrix.h"
 #include "matrix/report.h"
 #include "pipeline/stages.h"
+#include "tests/check/judge/frame_verdict.h"
 #include "tests/suite.h"
 #include "tests/text_file.h"
 
@@ -54,6 +55,18 @@ TEST(Faults, AreAsManyAsTheReadmeSays) {
 matrix::Subject subject_of(std::string_view name) {
   const faults::Fault fault = faults::named(name);
   return {std::string(name), fault.stages(), {fault.stage}};
+}
+
+// Attributes without perspective, and levels of detail with it.
+TEST(Faults, ThatAreAConventionHoldWhereItIsDeclared) {
+  Conventions affine;
+  affine.interpolation = Conventions::Interpolation::affine;
+  const auto verdict = [](const Conventions& declared) {
+    return test::verdict_of(test::narrow_floor(), pipeline::make_pipeline(faults::named("attributes.affine").stages()),
+                            declared);
+  };
+  EXPECT_TRUE(test::is_right(verdict(affine)));
+  EXPECT_TRUE(test::is_wrong(verdict(Conventions())));
 }
 
 // Geometry, pixels, records alone and what is resolved; and nothing where it is not asked for.

@@ -303,7 +303,7 @@ TEST_F(ByConventions, OffsetsAreOtherwiseInFramesOfTheUnitsFormat) {
 
 TEST_F(ByConventions, ColorsAreOtherwiseInFogOfVerticesAndInCodes) {
   C by_vertices, in_codes;
-  by_vertices.fog_factor = C::FogFactor::per_vertex, in_codes.fragment_colors = C::FragmentColors::in_codes;
+  by_vertices.fog_factor = C::FogFactor::per_vertex, in_codes.fragment_colors = C::ColorNumbers::in_codes;
   EXPECT_FALSE(draws_otherwise(scene, by_vertices, Stage::shade)) << "no fog";
   scene.draws[0].fog.emplace();
   EXPECT_TRUE(draws_otherwise(scene, by_vertices, Stage::shade));

@@ -7,9 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "capture/renderers/replayed_renderer.h"
-#include "check/judge/judge_single.h"
-#include "reference/exact/exact.h"
+#include "tests/check/judge/frame_verdict.h"
 #include "tests/learn/other_colors.h"
 #include "tests/suite.h"
 
@@ -17,23 +15,10 @@ namespace plumbline::check {
 namespace {
 
 using C = Conventions;
+using test::is_right;
+using test::is_wrong;
+using test::verdict_of;
 
-// Verdict on the renderer's colours and depths, or on all of its planes.
-SceneVerdict verdict_of(const Scene& scene, std::unique_ptr<Renderer> renderer, const C& conventions,
-                        bool of_all_planes = false) {
-  const auto exact = exact::make_exact();
-  const Reference references[] = {{"exact", exact.get()}};
-  const Planes drawn = renderer->capture(scene, Request{}).planes;
-  Capture frame;
-  frame.width = scene.frame.width, frame.height = scene.frame.height;
-  frame.planes.color = drawn.color, frame.planes.depth = drawn.depth;
-  if (of_all_planes) frame.planes = drawn;
-  const auto replayed = make_replayed_renderer(std::move(frame), scene, "test", conventions);
-  return judge_single(scene, *replayed, references);
-}
-SceneVerdict verdict_of(const std::string& scene, std::unique_ptr<Renderer> renderer, const C& conventions) {
-  return verdict_of(suite_scene(scene), std::move(renderer), conventions);
-}
 C with_factors(C::FogFactor declared) {
   C out;
   out.fog_factor = declared;
@@ -42,13 +27,6 @@ C with_factors(C::FogFactor declared) {
 SceneVerdict verdict_of(const std::string& scene, std::unique_ptr<Renderer> renderer, C::FogFactor declared) {
   return verdict_of(scene, std::move(renderer), with_factors(declared));
 }
-bool is_right(const SceneVerdict& verdict) {
-  return std::ranges::none_of(verdict.comparisons, [](const Comparison& c) { return c.outcome == Outcome::different; });
-}
-bool judges_colors(const SceneVerdict& verdict) {
-  return std::ranges::any_of(verdict.comparisons,
-                             [](const Comparison& c) { return c.stage == Stage::merge && was_compared(c); });
-}
 
 TEST(StrangersFog, FactorsMayBeThoseOfVerticesWhereThatIsDeclared) {
   using enum C::FogFactor;
@@ -56,10 +34,9 @@ TEST(StrangersFog, FactorsMayBeThoseOfVerticesWhereThatIsDeclared) {
   for (const char* scene : {"fog/exp", "fog/exp2", "fog/cut", "fog/linear", "texture/floor_in_fog"}) {
     const SceneVerdict verdict = verdict_of(scene, by_vertices(), per_vertex);
     EXPECT_TRUE(is_right(verdict)) << scene;
-    EXPECT_TRUE(judges_colors(verdict)) << scene;
-    EXPECT_FALSE(is_right(verdict_of(scene, by_vertices(), per_fragment))) << scene;
+    EXPECT_TRUE(is_wrong(verdict_of(scene, by_vertices(), per_fragment))) << scene;
   }
-  EXPECT_FALSE(is_right(verdict_of("fog/exp", pipeline::make_pipeline(), per_vertex)));
+  EXPECT_TRUE(is_wrong(verdict_of("fog/exp", pipeline::make_pipeline(), per_vertex)));
 }
 
 // Factors of a cut polygon's corners lie between those of the mesh's vertices and those of fragments.
@@ -68,7 +45,7 @@ TEST(StrangersFog, FactorsOfCutTrianglesMayBeThoseOfTheCutCorners) {
   constexpr auto halved = [](const Fog& fog, float z_eye) { return pipeline::fog_factor<float>(fog, z_eye) / 2; };
   for (const char* scene : {"fog/cut", "texture/floor_in_fog"}) {
     EXPECT_TRUE(is_right(verdict_of(scene, pipeline::make_pipeline(), per_vertex))) << scene << ", of tiny pieces";
-    EXPECT_FALSE(is_right(verdict_of(scene, test::make_fog_by_vertices<halved>(), per_vertex))) << scene;
+    EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_fog_by_vertices<halved>(), per_vertex))) << scene;
   }
 }
 
@@ -85,13 +62,29 @@ TEST(StrangersFog, FactorsOfCutTrianglesMayBeInterpolatedFromTheNearPlane) {
   };
   Scene scene = suite_scene("texture/floor_in_fog");
   scene.camera.eye = {0, 0.7, 1}, scene.camera.center = {0, -0.15, -1.1};
-  const auto outcome = [&](decltype(pipeline::Stages::shade) shade) {
+  const auto drawn = [&](decltype(pipeline::Stages::shade) shade) {
     pipeline::Stages stages = pipeline::production_stages();
     stages.shade = shade;
-    return is_right(verdict_of(scene, pipeline::make_pipeline(stages), with_factors(C::FogFactor::per_vertex)));
+    return verdict_of(scene, pipeline::make_pipeline(stages), with_factors(C::FogFactor::per_vertex));
   };
-  EXPECT_TRUE(outcome(test::shade_with_fog_factors<from_near>));
-  EXPECT_FALSE(outcome(test::shade_with_fog_factors<from_eye>));
+  EXPECT_TRUE(is_right(drawn(test::shade_with_fog_factors<from_near>)));
+  EXPECT_TRUE(is_wrong(drawn(test::shade_with_fog_factors<from_eye>)));
+}
+
+// A piece from the near plane to where the fog is full, by a side of the window: its factors pass over the start.
+TEST(StrangersFog, LinearFactorsOfCutTrianglesMayPassOverTheStart) {
+  constexpr auto to_the_end = [](const Fog& fog, float z_eye) { return std::max(0.0f, 1 + z_eye / fog.end); };
+  Scene scene = suite_scene("texture/floor_in_fog");
+  scene.camera.eye = {0, 0.7, 1}, scene.camera.center = {0, -0.15, -1.1};
+  scene.draws[0].fog = Fog{.mode = Fog::Mode::linear, .color = glm::vec3(0.3f, 0.4f, 0.5f), .start = 10, .end = 20};
+  const auto verdict = [&](float start) {
+    scene.draws[0].fog->start = start;
+    pipeline::Stages stages = pipeline::production_stages();
+    stages.shade = test::shade_with_fog_factors<to_the_end>;
+    return verdict_of(scene, pipeline::make_pipeline(stages), with_factors(C::FogFactor::per_vertex));
+  };
+  EXPECT_TRUE(is_right(verdict(10)));
+  EXPECT_TRUE(is_wrong(verdict(-10))) << "before the near plane";
 }
 
 TEST(StrangersFog, LinearFactorsMayBeClampedBeforeOrAfterTheyAreInterpolated) {
@@ -99,37 +92,47 @@ TEST(StrangersFog, LinearFactorsMayBeClampedBeforeOrAfterTheyAreInterpolated) {
   EXPECT_TRUE(is_right(verdict_of("fog/linear", test::make_fog_by_vertices<test::unclamped_fog_factor>(), per_vertex)));
   EXPECT_TRUE(is_right(verdict_of("fog/linear", pipeline::make_pipeline(), per_vertex))) << "which is the same";
   constexpr auto halved = [](const Fog& fog, float z_eye) { return pipeline::fog_factor<float>(fog, z_eye) / 2; };
-  EXPECT_FALSE(is_right(verdict_of("fog/linear", test::make_fog_by_vertices<halved>(), per_vertex)));
+  EXPECT_TRUE(is_wrong(verdict_of("fog/linear", test::make_fog_by_vertices<halved>(), per_vertex)));
+}
+
+TEST(StrangersColors, OfVerticesMayBeCodesWhereThatIsDeclared) {
+  C in_codes;
+  in_codes.vertex_colors = C::ColorNumbers::in_codes;
+  for (const char* scene : {"interpolation/ramps", "light/sphere_gouraud", "texture/vertex_colors_flat"}) {
+    EXPECT_TRUE(is_right(verdict_of(scene, test::make_vertices_in_codes(), in_codes))) << scene;
+    EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_vertices_in_codes(), C()))) << scene;
+    EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_vertices_in_codes<3>(), in_codes))) << scene;
+    EXPECT_TRUE(is_right(verdict_of(scene, pipeline::make_pipeline(), in_codes))) << scene;
+  }
 }
 
 TEST(StrangersColors, MayBeCodesBeforeTheyAreMergedWhereThatIsDeclared) {
   C in_float, in_codes;
-  in_codes.fragment_colors = C::FragmentColors::in_codes;
+  in_codes.fragment_colors = C::ColorNumbers::in_codes;
   const auto by_codes = [] { return pipeline::make_pipeline(test::stages_in_codes()); };
   for (const char* scene : {"texture/floor_modulated", "texture/vertex_colors_flat", "fog/exp", "blend/halves"}) {
     const SceneVerdict verdict = verdict_of(scene, by_codes(), in_codes);
     EXPECT_TRUE(is_right(verdict)) << scene;
-    EXPECT_TRUE(judges_colors(verdict)) << scene;
   }
   for (const char* scene : {"texture/floor_modulated", "texture/vertex_colors_flat"})
-    EXPECT_FALSE(is_right(verdict_of(scene, by_codes(), in_float))) << scene;
+    EXPECT_TRUE(is_wrong(verdict_of(scene, by_codes(), in_float))) << scene;
 }
 
 // Alphas of codes, compared as floats: bands where a code is equal to the reference are a code wide.
 TEST(StrangersColors, InCodesHaveAlphasInCodesWhateverTheyAreComparedAs) {
   C conventions;
   conventions.alpha_test = C::AlphaTest::in_float;
-  const auto outcome = [&] {
-    return is_right(verdict_of("alpha_test/bands", pipeline::make_pipeline(test::stages_in_codes()), conventions));
+  const auto drawn = [&] {
+    return verdict_of("alpha_test/bands", pipeline::make_pipeline(test::stages_in_codes()), conventions);
   };
-  EXPECT_FALSE(outcome());
-  conventions.fragment_colors = C::FragmentColors::in_codes;
-  EXPECT_TRUE(outcome());
+  EXPECT_TRUE(is_wrong(drawn()));
+  conventions.fragment_colors = C::ColorNumbers::in_codes;
+  EXPECT_TRUE(is_right(drawn()));
 }
 
 TEST(StrangersColors, ShadedPlanesMayBeCodesToo) {
   C in_float, in_codes;
-  in_codes.fragment_colors = C::FragmentColors::in_codes;
+  in_codes.fragment_colors = C::ColorNumbers::in_codes;
   const auto verdict = [](const C& conventions) {
     return verdict_of(suite_scene("interpolation/ramps"), pipeline::make_pipeline(test::stages_in_codes()), conventions,
                       true);
@@ -153,8 +156,8 @@ TEST(StrangersColors, InCodesAreRoundedOnceWhereNoOtherStepIs) {
     return {down(color.r), down(color.g), down(color.b), down(color.a)};
   };
   C in_codes;
-  in_codes.fragment_colors = C::FragmentColors::in_codes;
-  EXPECT_FALSE(is_right(verdict_of("interpolation/ramps", pipeline::make_pipeline(stages), in_codes)));
+  in_codes.fragment_colors = C::ColorNumbers::in_codes;
+  EXPECT_TRUE(is_wrong(verdict_of("interpolation/ramps", pipeline::make_pipeline(stages), in_codes)));
   EXPECT_TRUE(is_right(verdict_of("interpolation/ramps", pipeline::make_pipeline(), in_codes)));
 }
 
@@ -168,21 +171,21 @@ pipeline::Shaded shade_off(const pipeline::Surface& surface, bool front,
 }
 
 TEST(StrangersColors, InCodesAreOffToTheSideOfTheirRounding) {
-  const auto outcome = [](decltype(pipeline::Stages::shade) shade, C::Rounding rounding) {
+  const auto drawn = [](decltype(pipeline::Stages::shade) shade, C::Rounding rounding) {
     pipeline::Stages stages = pipeline::production_stages();
     stages.shade = shade;
     C in_codes;
-    in_codes.fragment_colors = C::FragmentColors::in_codes;
+    in_codes.fragment_colors = C::ColorNumbers::in_codes;
     in_codes.color_rounding = rounding;
-    return is_right(verdict_of("texture/floor_modulated", pipeline::make_pipeline(stages), in_codes));
+    return verdict_of("texture/floor_modulated", pipeline::make_pipeline(stages), in_codes);
   };
   using enum C::Rounding;
-  EXPECT_FALSE(outcome(shade_off<21>, nearest));
-  EXPECT_FALSE(outcome(shade_off<-21>, nearest));
-  EXPECT_FALSE(outcome(shade_off<5>, down));
-  EXPECT_TRUE(outcome(shade_off<-10>, down));
-  EXPECT_FALSE(outcome(shade_off<-40>, down));
-  EXPECT_FALSE(outcome(shade_off<-21>, up));
+  EXPECT_TRUE(is_wrong(drawn(shade_off<21>, nearest)));
+  EXPECT_TRUE(is_wrong(drawn(shade_off<-21>, nearest)));
+  EXPECT_TRUE(is_wrong(drawn(shade_off<5>, down)));
+  EXPECT_TRUE(is_right(drawn(shade_off<-10>, down)));
+  EXPECT_TRUE(is_wrong(drawn(shade_off<-40>, down)));
+  EXPECT_TRUE(is_wrong(drawn(shade_off<-21>, up)));
 }
 
 }  // namespace

@@ -1,0 +1,144 @@
+// Coverage that a renderer's grid, rounding and tie rule settle.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/oracle/window_answers.h"
+
+namespace plumbline::math {
+namespace {
+
+using C = Conventions;
+
+C declared(C::TieRule rule, int bits = 8) {
+  C out;
+  out.tie_rule = rule;
+  out.subpixel_bits = bits;
+  return out;
+}
+
+const std::vector<std::array<glm::vec3, 3>> kSquare = {
+    {glm::vec3(4.5f, 4.5f, 0.5f), {28.5f, 4.5f, 0.5f}, {28.5f, 28.5f, 0.5f}},
+    {glm::vec3(4.5f, 4.5f, 0.5f), {28.5f, 28.5f, 0.5f}, {4.5f, 28.5f, 0.5f}}};
+
+// A square whose borders run through samples: a declared tie rule says which of them are in, and in which triangle.
+TEST(SettledCoverage, ADeclaredTieRuleSettlesSamplesOnEdges) {
+  using enum C::TieRule;
+  const Scene scene = window_scene(kSquare);
+  EXPECT_EQ(open_pixels(legal(scene, {})), 4u * 24) << "by any rule, the border is open";
+  struct Case {
+    C::TieRule rule;
+    std::uint32_t left, right, bottom, top, inner;
+    std::int32_t owner;  // of the diagonal, whose lower triangle is the first
+  };
+  for (const Case& c : {Case{left_bottom, 1, 0, 1, 0, 1, 0}, Case{left_top, 1, 0, 0, 1, 1, 0},
+                        Case{right_bottom, 0, 1, 1, 0, 1, 1}, Case{right_top, 0, 1, 0, 1, 1, 1},
+                        Case{inclusive, 1, 1, 1, 1, 2, 0}, Case{exclusive, 0, 0, 0, 0, 0, kBackground}}) {
+    const Legal by = legal(scene, declared(c.rule));
+    EXPECT_EQ(open_pixels(by), 0u) << name_of(c.rule);
+    EXPECT_EQ(by.certain(4, 16), c.left) << name_of(c.rule);
+    EXPECT_EQ(by.certain(28, 16), c.right) << name_of(c.rule);
+    EXPECT_EQ(by.certain(16, 4), c.bottom) << name_of(c.rule);
+    EXPECT_EQ(by.certain(16, 28), c.top) << name_of(c.rule);
+    EXPECT_EQ(by.certain(16, 16), c.inner) << name_of(c.rule);
+    const std::size_t winners = c.rule == inclusive ? 2 : 1;  // depths of one plane may compare either way
+    ASSERT_EQ(by.at(16, 16).size(), winners) << name_of(c.rule);
+    EXPECT_EQ(by.at(16, 16)[0].primitive, c.owner) << name_of(c.rule);
+  }
+}
+
+// Samples on edges stay open where the grid is unknown, or float arithmetic decides to which grid point a corner
+// snaps.
+TEST(SettledCoverage, ATieRuleSettlesNothingWithoutPlaces) {
+  const Scene scene = window_scene(kSquare);
+  const std::size_t any = open_pixels(legal(scene, {}));
+  C no_grid = declared(C::TieRule::left_bottom, C::kFloat), open_bits = declared(C::TieRule::left_bottom),
+    from_top = open_bits, off_grid = open_bits;
+  open_bits.open = {"subpixel_bits"};
+  from_top.subpixel_rounding = C::Rounding::down, from_top.rows = C::Rows::from_top;
+  EXPECT_EQ(open_pixels(legal(scene, no_grid)), any);
+  EXPECT_EQ(open_pixels(legal(scene, open_bits)), any);
+  EXPECT_GE(open_pixels(legal(scene, from_top)), any);
+  off_grid.sample = {0.501, 0.5};
+  EXPECT_EQ(open_pixels(legal(scene, off_grid)), open_pixels(legal(scene, [&] {
+              C of_any = off_grid;
+              of_any.tie_rule = C::TieRule::any;
+              return of_any;
+            }())));
+  // Corners in the middle between two places of the grid.
+  std::vector<std::array<glm::vec3, 3>> between = kSquare;
+  for (auto& t : between)
+    for (glm::vec3& p : t) p += glm::vec3(1.0f / 512, 1.0f / 512, 0);
+  EXPECT_GT(open_pixels(legal(window_scene(between), declared(C::TieRule::left_bottom))), 90u);
+  // A coarser grid takes them to places for certain.
+  EXPECT_EQ(open_pixels(legal(window_scene(between), declared(C::TieRule::left_bottom, 4))), 0u);
+}
+
+// The diagonal's neighbours: one has a corner in the middle between two places. What the other leaves is still its.
+TEST(SettledCoverage, AnUnknownCornerLeavesSharedEdgesCoveredOnce) {
+  std::vector<std::array<glm::vec3, 3>> half = kSquare;
+  half[1][2].x += 1.0f / 512;
+  const Legal by = legal(window_scene(half), declared(C::TieRule::right_top));  // the diagonal is the second's
+  for (int i = 6; i < 27; ++i) {
+    EXPECT_EQ(by.certain(i, i), 1u) << i;
+    EXPECT_EQ(by.possible(i, i), 1u) << i;
+    ASSERT_EQ(by.at(i, i).size(), 1u) << i;
+    EXPECT_EQ(by.at(i, i)[0].primitive, 1) << i;
+  }
+}
+
+// A position of a triangle's corner, snapped [steps of 1/16 pixel].
+glm::dvec2 snapped(glm::vec3 p, C::Rounding rounding) {
+  return {rounded(rounding, 16 * static_cast<double>(p.x)), rounded(rounding, 16 * static_cast<double>(p.y))};
+}
+// Whether the centre of a pixel is inside of a counter-clockwise triangle. No centre lies on an edge.
+bool is_inside(const std::array<glm::vec3, 3>& triangle, glm::ivec2 pixel, C::Rounding rounding) {
+  const glm::dvec2 centre = 16.0 * (glm::dvec2(pixel) + 0.5);
+  bool out = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 from = snapped(triangle[i], rounding), along = snapped(triangle[(i + 1) % 3], rounding) - from,
+                     to = centre - from;
+    out &= along.x * to.y - along.y * to.x > 0;
+  }
+  return out;
+}
+
+TEST(SettledCoverage, GoesByTheDeclaredRoundingOfPositions) {
+  const std::vector<std::array<glm::vec3, 3>> slanted = {
+      {glm::vec3(3.23f, 2.11f, 0.5f), {29.77f, 5.36f, 0.5f}, {9.96f, 27.83f, 0.5f}}};
+  std::size_t apart = 0;
+  for (const auto rounding : {C::Rounding::nearest, C::Rounding::down, C::Rounding::up}) {
+    C grid = declared(C::TieRule::left_bottom, 4);
+    grid.subpixel_rounding = rounding;
+    const Legal by = legal(window_scene(slanted), grid);
+    EXPECT_EQ(open_pixels(by), 0u) << name_of(rounding);
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const bool is_covered = is_inside(slanted[0], {x, y}, rounding);
+        EXPECT_EQ(by.certain(x, y), is_covered ? 1u : 0u) << x << "," << y << " " << name_of(rounding);
+        apart += is_covered != is_inside(slanted[0], {x, y}, C::Rounding::nearest) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(apart, 4u) << "the roundings differ";
+}
+
+// Fixed point of 11 bits may take a position to the next place before it is rounded down.
+TEST(SettledCoverage, IsOpenBesideWhereTheRoundingChanges) {
+  C down = declared(C::TieRule::left_bottom, 4);
+  down.subpixel_rounding = C::Rounding::down;
+  const auto open_at = [&](float below) {
+    std::vector<std::array<glm::vec3, 3>> square = kSquare;
+    for (auto& t : square) {
+      for (glm::vec3& p : t) p -= glm::vec3(below, below, 0);
+    }
+    return open_pixels(legal(window_scene(square), down));
+  };
+  EXPECT_GT(open_at(0x1p-13f), 0u);
+  EXPECT_EQ(open_at(0x1p-11f), 0u);
+  down.rows = C::Rows::from_top;
+  EXPECT_GT(open_at(0x1p-11f), 0u) << "down and up swap in y";
+}
+
+}  // namespace
+}  // namespace plumbline::math
