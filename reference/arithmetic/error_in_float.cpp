@@ -46,8 +46,8 @@ double error_near(const Projected& scene, const Triangle& t, std::span<const glm
   return out < 0 ? kInfinity : out;
 }
 
-// Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and, where the near and the
-// far plane cut, depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel].
+// Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and, where the near and
+// the far plane cut, depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel].
 template <class Error>
 double error_of_pieces(const Projected& scene, const Triangle& t, double slope, glm::dvec3 d,
                        const PieceAltitudes& altitudes, Error error) {

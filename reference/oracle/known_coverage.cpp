@@ -1,10 +1,10 @@
 // Coverage that declared conventions decide.
 //
 // For a renderer that declares its grid and its tie rule (settles_ties()), coverage is open only where float arithmetic
-// decides to which grid point a corner is snapped: where the corner's position in double is nearer to where the rounding
-// changes (the middle between two grid points; down and up: a grid point) than float arithmetic may displace it
-// (corner_displacement()). Coverage is known where all grid points of all three corners give the same answer; the tie
-// rule settles edge functions that are 0.
+// decides to which grid point a corner is snapped: where the corner's position in double is nearer to where the
+// rounding changes (the middle between two grid points; down and up: a grid point) than float arithmetic may displace
+// it (corner_displacement()). Coverage is known where all grid points of all three corners give the same answer; the
+// tie rule settles edge functions that are 0.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -36,8 +36,8 @@ std::optional<Derivatives> derivatives(const PixelSite& site, const std::array<g
 }
 
 /// The hit's texture coordinates, and the range of lambda over the four pixels of its 2 x 2 quad. `off`: relative error
-/// of the derivatives. A renderer that interpolates without perspective may take derivatives of what it interpolates, or
-/// those of the surface.
+/// of the derivatives. A renderer that interpolates without perspective may take derivatives of what it interpolates,
+/// or those of the surface.
 BoundedPlace place_in_texture(const Texture& texture, const PixelSite& site, const BoundedFour& st,
                               const LevelRules& rules, double off) {
   const glm::ivec2 pixel = site.pixel;

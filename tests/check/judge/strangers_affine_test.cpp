@@ -14,8 +14,8 @@ using pipeline::FilteredTexel;
 using test::is_right;
 using test::is_wrong;
 
-// Our renderer of scenes whose vertices lie where the window shows them: it then knows of no perspective. `texture`: its
-// stage of that name.
+// Our renderer of scenes whose vertices lie where the window shows them: it then knows of no perspective. `texture`:
+// its stage of that name.
 class OfTheWindow : public Renderer {
  public:
   explicit OfTheWindow(decltype(pipeline::Stages::texture) texture) {

@@ -60,7 +60,8 @@ TEST(FramesApart, SeesNoDepthsWhereOneFrameHasNone) {
   EXPECT_THAT(apart(without, grey(0.9)), ElementsAre(0, 0, 0, 0, 0, 0));
 }
 
-// A legal pixel that is ours to a look, and no other frame's, is counted; one that differs from ours contradicts others.
+// A legal pixel that is ours to a look, and no other frame's, is counted; one that differs from ours contradicts
+// others.
 TEST(FramesApart, PassesOverLegalPixelsThatDifferFromOurs) {
   const GivenFrame ours = grey(), white = pixel({1, 1, 1, 0.5f}, 0.5);
   GivenFrame given = pixel({0.2f, 0.2f, 0.2f, 0.5f}, 0.5);
