@@ -52,7 +52,7 @@ BoundedPlace place_in_texture(const Texture& texture, const PixelSite& site, con
     const glm::ivec2 at((pixel.x & ~1) + k % 2, (pixel.y & ~1) + k / 2);
     const glm::dvec3 ray = centre + glm::dvec3(glm::dvec2(at - pixel), 0);
     for (const bool of_surface : {false, true}) {
-      const auto planes = of_surface ? site.t.n : site.weight_planes();
+      const auto planes = of_surface ? site.t.n : site.weight_planes(site.scene.conventions.interpolation);
       const auto d = site.has_one_plane() ? derivatives(site, planes, ray) : std::nullopt;
       double lambda = static_cast<double>(texture.sampler.max_lod), most = lambda,
              least = static_cast<double>(texture.sampler.min_lod);
@@ -124,7 +124,9 @@ class FragmentColor {
   bool is_two_sided() const { return draw_.lit && scene_.light_model.sides == LightModel::Sides::two; }
   bool is_back() const { return is_two_sided() && site_.t.sign < 0; }
   // of_corner(): the attribute at each corner.
-  BoundedFour attribute(auto of_corner) const { return site_.attribute(at_corners(of_corner), certain_); }
+  BoundedFour attribute(auto of_corner) const {
+    return site_.attribute(at_corners(of_corner), certain_, site_.scene.conventions.interpolation);
+  }
   std::array<BoundedFour, 3> at_corners(auto of_corner) const {
     const auto corner = [&](std::size_t i) { return of_corner(site_.scene.corners[site_.t.corner[i]]); };
     return {corner(0), corner(1), corner(2)};
@@ -138,7 +140,8 @@ class FragmentColor {
     if (is_flat) corners[0] = corners[1] = corners[2];
     const bool is_given =
         is_flat && site_.scene.conventions.depth_arithmetic == Conventions::DepthArithmetic::in_double;
-    BoundedFour out = is_given ? corners[2] : site_.attribute(corners, certain_);
+    BoundedFour out =
+        is_given ? corners[2] : site_.attribute(corners, certain_, interpolation_of_colors(site_.scene.conventions));
     out.bound += is_flat ? 4 * kFloatRounding : overshoot(out.value, corners);
     return out;
   }

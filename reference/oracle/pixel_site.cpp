@@ -11,15 +11,15 @@ namespace plumbline::math {
 
 namespace {
 
-bool is_affine(const Projected& scene) { return scene.conventions.interpolation == Conventions::Interpolation::affine; }
+constexpr Conventions::Interpolation kAffine = Conventions::Interpolation::affine;
 
 /// Largest difference between an attribute with perspective and one without, over the attribute's range, where a
 /// renderer may cut the triangle into pieces. A piece's corners have attributes a_i, whose range is within that of the
 /// triangle's corners, and w_i in [w_lo, w_hi]. A point has b_i without perspective, and with it c_i = (b_i / w_i) / m,
 /// m = sum b_j / w_j >= 1 / w_hi. Half the sum of |b_i - c_i| is the sum of b_i (1 - 1 / (w_i m)) where that is
 /// positive: at most 1 - w_lo / w_hi.
-double error_of_cuts(const Projected& scene, const Triangle& t) {
-  if (!is_affine(scene) || !t.cut) return 0;
+double error_of_cuts(const Projected& scene, const Triangle& t, Conventions::Interpolation how) {
+  if (how != kAffine || !t.cut) return 0;
   const auto w = [&](std::size_t i) { return scene.corners[t.corner[i]].v.z; };
   const auto [lo, hi] = std::minmax({w(0), w(1), w(2)});
   return 1 - lo / hi;
@@ -135,20 +135,21 @@ double PixelSite::centre_weight(bool certain) const {
 
 // Without perspective, each edge function is multiplied by its corner's w; not of a triangle that may be cut
 // (error_of_cuts()).
-std::array<glm::dvec3, 3> PixelSite::weight_planes() const {
+std::array<glm::dvec3, 3> PixelSite::weight_planes(Conventions::Interpolation how) const {
   std::array<glm::dvec3, 3> out = t.n;
-  if (!is_affine(scene) || t.cut) return out;
+  if (how != kAffine || t.cut) return out;
   for (std::size_t i = 0; i < 3; ++i) out[i] *= scene.corners[t.corner[i]].v.z;
   return out;
 }
 
-BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool certain) const {
+BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool certain,
+                                 Conventions::Interpolation how) const {
   const glm::dvec3 centre = scene.to_centre(d);
-  const std::array<glm::dvec3, 3> n = weight_planes();
+  const std::array<glm::dvec3, 3> n = weight_planes(how);
   const glm::dvec3 e(glm::dot(n[0], centre), glm::dot(n[1], centre), glm::dot(n[2], centre));
   const double weight = centre_weight(certain), sum = e.x + e.y + e.z;
   // Without a reliable plane: the mean of the corners, without a bound.
-  if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0) || (is_affine(scene) && !t.ahead))
+  if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0) || (how == kAffine && !t.ahead))
     return {(corners[0].value + corners[1].value + corners[2].value) / 3.0, kInfinity};
   const auto largest = [](const glm::dvec4& v) {
     const glm::dvec4 a = glm::abs(v);
@@ -181,7 +182,7 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
                steepest = std::max(of_numerator, of_denominator) / near_end;
   const double shares = near_end * shares_error_in_float(scene, t, centre, pieces, steepest);
   return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + attribute_error(shares, most) +
-                     value_weight * (error + 2 * (w_error + error_of_cuts(scene, t)) * spread +
+                     value_weight * (error + 2 * (w_error + error_of_cuts(scene, t, how)) * spread +
                                      32 * kFloatRounding * near_end * std::max(most, 1.0))};
 }
 

@@ -51,16 +51,16 @@ class PixelSite {
   /// Whether snapping may turn over the piece that covers the pixel; the piece's plane then goes through snapped
   /// corners.
   bool may_turn_over(bool certain) const { return !certain && (t.cut || t.thin); }
-  /// Edge functions that weight the corners' attributes in the renderer's interpolation.
-  std::array<glm::dvec3, 3> weight_planes() const;
-  /// Whether attributes go by weight_planes(). Without perspective, the pieces of a cut triangle have planes of their
-  /// own.
+  /// Edge functions that weight the corners' attributes.
+  std::array<glm::dvec3, 3> weight_planes(Conventions::Interpolation how) const;
+  /// Whether texture coordinates go by weight_planes(). Without perspective, the pieces of a cut triangle have planes of
+  /// their own.
   bool has_one_plane() const {
     return scene.conventions.interpolation == Conventions::Interpolation::perspective || !t.cut;
   }
-  /// An attribute at the pixel's centre, with its bound, by the renderer's interpolation; extrapolated beyond the
-  /// triangle's border, as renderers do. `corners`: the attribute at the corners.
-  BoundedFour attribute(const std::array<BoundedFour, 3>& corners, bool certain) const;
+  /// An attribute at the pixel's centre, with its bound; extrapolated beyond the triangle's border, as renderers do.
+  /// `corners`: the attribute at the corners.
+  BoundedFour attribute(const std::array<BoundedFour, 3>& corners, bool certain, Conventions::Interpolation how) const;
   /// Relative error of a renderer's slopes of attributes: corners displaced by float arithmetic or snapping tilt a
   /// plane by the displacement over its altitude; w adds its own error, the evaluation 16 u.
   double slopes_off() const;

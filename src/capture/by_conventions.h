@@ -32,6 +32,12 @@ class SceneByConventions {
 /// The depth buffer's format: the convention's, or the frame's where that is as_asked.
 DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& conventions);
 
+/// How colours of vertices are interpolated.
+inline Conventions::Interpolation interpolation_of_colors(const Conventions& conventions) {
+  return conventions.color_interpolation == Conventions::ColorInterpolation::affine ? Conventions::Interpolation::affine
+                                                                                    : conventions.interpolation;
+}
+
 /// Whether colours of vertices are codes of the frame's format before they are interpolated, and again where a triangle
 /// is cut.
 inline bool has_codes_of_vertices(const FrameFormat& frame, const Conventions& conventions) {

@@ -25,6 +25,7 @@ struct Conventions {
   enum class ClipDepth { minus_w_to_w, zero_to_w };
   enum class DepthPlanes { cut, clamped };
   enum class Interpolation { perspective, affine };
+  enum class ColorInterpolation { as_others, affine };
   enum class Corners { as_they_are, snapped };
   enum class DepthCorners { either, as_they_are, snapped };
   enum class Provoking { last, first };
@@ -58,6 +59,7 @@ struct Conventions {
   ClipDepth clip_depth = ClipDepth::minus_w_to_w;
   DepthPlanes depth_planes = DepthPlanes::cut;
   Interpolation interpolation = Interpolation::perspective;
+  ColorInterpolation color_interpolation = ColorInterpolation::as_others;
   Corners attribute_corners = Corners::as_they_are;
   DepthCorners depth_corners = DepthCorners::either;
   Provoking provoking_vertex = Provoking::last;
@@ -102,6 +104,8 @@ template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::DepthPlanes> = {"cut", "clamped"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Interpolation> = {"perspective", "affine"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::ColorInterpolation> = {"as_others", "affine"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Corners> = {"as_they_are", "snapped"};
 template <>
@@ -162,6 +166,9 @@ void each_choice(Visit visit) {
   visit(ConventionWords{"clip_depth", "the view volume in z", false}, &C::clip_depth);
   visit(ConventionWords{"depth_planes", "geometry beyond the near and far planes", false}, &C::depth_planes);
   visit(ConventionWords{"interpolation", "how attributes are interpolated", false}, &C::interpolation);
+  visit(ConventionWords{"color_interpolation", "how colours are, where not as other attributes (OpenGL 2.1, 3.5.1)",
+                        true},
+        &C::color_interpolation);
   visit(ConventionWords{"attribute_corners", "window positions that attributes are interpolated between", true},
         &C::attribute_corners);
   visit(ConventionWords{"depth_corners", "window positions that depths are interpolated between", true},

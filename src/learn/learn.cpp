@@ -21,7 +21,7 @@ const std::vector<Probe>& probes() {
       {learn_grid, {kSampleWords.name, "subpixel_bits", "subpixel_rounding"}},
       {learn_ties, {"tie_rule"}},
       {learn_colors, {"color_rounding", "color_encoding"}},
-      {learn_interpolation, {"interpolation"}},
+      {learn_interpolation, {"interpolation", "color_interpolation"}},
       {learn_corners, {"attribute_corners"}},
       {learn_depth_corners, {"depth_corners"}},
       {learn_depth_arithmetic, {"depth_arithmetic"}},

@@ -100,22 +100,67 @@ void learn_clipping(Prober& prober) {
   prober.found(planes, name_of(c.depth_planes), evidence);
 }
 
-void learn_interpolation(Prober& prober) {
-  const ConventionWords words = words_of("interpolation");
-  const C& c = prober.learned.conventions;
-  if (prober.lacks(words, {"color_encoding", kSampleWords.name}) || prober.lacks_linear_colors(words)) return;
-  const Plane<glm::vec4> color = prober.draw(receding_wall("interpolation", 0, 1)).color;
+namespace {
+
+// The interpolation that explains the wall's greys, which go from black at the left to white at the right.
+struct FoundInterpolation {
+  C::Interpolation value;
+  std::size_t pixels;
+  bool explains() const { return pixels * 10 >= kFrameSize * 9; }
+};
+FoundInterpolation interpolation_of(Prober& prober, const Scene& wall) {
+  const Plane<glm::vec4> color = prober.draw(wall).color;
   std::size_t perspective = 0, affine = 0;
   for (int x = 0; x < kFrameSize; ++x) {
-    const Shares share = shares_at(x, c);
+    const Shares share = shares_at(x, prober.learned.conventions);
     perspective += is_grey(color, x, share.perspective), affine += is_grey(color, x, share.affine);
   }
-  const std::size_t most = std::max(perspective, affine);
-  const std::string evidence = fmt::format("{} of {} pixels", most, kFrameSize);
-  if (most * 10 < kFrameSize * 9) return prober.fits_none(words, evidence + " at most are explained");
-  prober.learned.conventions.interpolation =
-      perspective >= affine ? C::Interpolation::perspective : C::Interpolation::affine;
-  prober.found(words, name_of(prober.learned.conventions.interpolation), evidence);
+  if (perspective >= affine) return {C::Interpolation::perspective, perspective};
+  return {C::Interpolation::affine, affine};
+}
+
+// The wall with a texture from black to white in place of its colours.
+Scene textured_wall() {
+  Scene out = receding_wall("texture_interpolation", 1, 1);
+  Texture texture;
+  TextureLevel level;
+  level.width = 64, level.height = 1;
+  for (int i = 0; i < level.width; ++i) level.texels.emplace_back(glm::vec3((4 * static_cast<float>(i) + 2) / 255), 1);
+  texture.levels = {level};
+  texture.format = TextureFormat::rgb;
+  texture.sampler.min = MinFilter::nearest, texture.sampler.mag = MagFilter::nearest;
+  out.textures.push_back(std::move(texture));
+  Mesh& mesh = out.meshes[0];
+  const auto [left, right] = std::ranges::minmax(mesh.positions, {}, &glm::vec3::x);
+  for (std::size_t i = 0; i < mesh.texcoords.size(); ++i)
+    mesh.texcoords[i] = {mesh.positions[i].x < (left.x + right.x) / 2 ? 0.0f : 1.0f, 0.5f};
+  out.draws[0].texture = DrawTexture{0, TextureEnvironment::replace, glm::vec4(0)};
+  return out;
+}
+
+}  // namespace
+
+// Where there are no textures, other attributes are taken to be interpolated as colours are.
+void learn_interpolation(Prober& prober) {
+  const ConventionWords words = words_of("interpolation"), of_colors = words_of("color_interpolation");
+  if (prober.lacks(words, {"color_encoding", kSampleWords.name}) || prober.lacks_linear_colors(words)) return;
+  C& c = prober.learned.conventions;
+  const FoundInterpolation colors = interpolation_of(prober, receding_wall("interpolation", 0, 1));
+  const std::string evidence = fmt::format("{} of {} pixels", colors.pixels, kFrameSize);
+  if (!colors.explains()) return prober.fits_none(words, evidence + " at most are explained");
+  FoundInterpolation others = colors;
+  try {
+    others = interpolation_of(prober, textured_wall());
+  } catch (const Unsupported&) {
+  }
+  if (!others.explains()) others = colors;  // the texture's probes show why
+  c.interpolation = others.value;
+  if (colors.value == C::Interpolation::affine && others.value == C::Interpolation::perspective)
+    c.color_interpolation = C::ColorInterpolation::affine;
+  else if (colors.value != others.value)
+    prober.unexplained("texture coordinates are interpolated without perspective, colours with it");
+  prober.found(words, name_of(c.interpolation), fmt::format("{} of {} pixels", others.pixels, kFrameSize));
+  prober.found(of_colors, name_of(c.color_interpolation), evidence);
 }
 
 // White wall in black fog. Factors of the distance, and those interpolated between the wall's ends, differ by up to 34

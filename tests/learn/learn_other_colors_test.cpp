@@ -71,6 +71,12 @@ TEST(LearnFragmentColors, CodesAreFound) {
   EXPECT_EQ(learned(pipeline::make_pipeline(test::stages_in_codes())), expected);
 }
 
+TEST(LearnInterpolation, ColoursAloneMayBeAffine) {
+  C expected = ours();
+  expected.color_interpolation = C::ColorInterpolation::affine;
+  EXPECT_EQ(learned(test::make_affine_colors()), expected);
+}
+
 TEST(LearnVertexColors, CodesAreFound) {
   C expected = ours();
   expected.vertex_colors = C::ColorNumbers::in_codes;

@@ -288,7 +288,9 @@ bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage s
   if (stage >= Stage::depth && is_other_unit && std::ranges::any_of(scene.draws, is_moved)) return true;
   if (stage >= Stage::shade && stage != Stage::visibility && fogs_by_vertices(scene, conventions)) return true;
   const bool has_colors = stage >= Stage::attributes && (stage != Stage::visibility || tests_alpha(scene));
-  if (has_colors && (has_codes || has_codes_of_fragments(scene.frame, conventions))) return true;
+  if (has_colors && (has_codes || has_codes_of_fragments(scene.frame, conventions) ||
+                     interpolation_of_colors(conventions) != conventions.interpolation))
+    return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
 }

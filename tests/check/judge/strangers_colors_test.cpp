@@ -95,6 +95,19 @@ TEST(StrangersFog, LinearFactorsMayBeClampedBeforeOrAfterTheyAreInterpolated) {
   EXPECT_TRUE(is_wrong(verdict_of("fog/linear", test::make_fog_by_vertices<halved>(), per_vertex)));
 }
 
+// Colours without perspective under a texture with it.
+TEST(StrangersColors, AloneMayBeAffineWhereThatIsDeclared) {
+  C colors, all;
+  colors.color_interpolation = C::ColorInterpolation::affine, all.interpolation = C::Interpolation::affine;
+  Scene scene = test::narrow_floor();
+  scene.draws[0].texture->environment = TextureEnvironment::modulate;
+  scene.meshes[0].colors = {{1, 0.2f, 0.2f, 1}, {1, 0.2f, 0.2f, 1}, {0.2f, 1, 1, 1}, {0.2f, 1, 1, 1}};
+  EXPECT_TRUE(is_right(verdict_of(scene, test::make_affine_colors(), colors)));
+  EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_affine_colors(), C())));
+  EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_affine_colors(), all)));
+  EXPECT_TRUE(is_wrong(verdict_of(scene, pipeline::make_pipeline(), colors)));
+}
+
 TEST(StrangersColors, OfVerticesMayBeCodesWhereThatIsDeclared) {
   C in_codes;
   in_codes.vertex_colors = C::ColorNumbers::in_codes;
