@@ -87,11 +87,10 @@ struct FactorRange {
   void include(double factor) { least = std::min(least, factor), most = std::max(most, factor); }
 };
 
-// Corners of a cut triangle's pieces lie between the nearest and the farthest of its corners, or of where the near
-// plane cuts it, whichever planes of the sides a renderer cuts at. Where the factor is convex in the distance, one that
-// they interpolate is at most the chord's of that range, and at least that of the fragment's distance. exp2 is not
-// convex, nor is linear fog where it starts, nor any factor about the eye's plane: these may come to any factor of the
-// range.
+// Includes the factors that pieces of a cut triangle may interpolate at a fragment of that distance [eye units].
+// Distances of a piece's corners lie in [near, far]: from the triangle's nearest corner, or the near plane's cut, to its
+// farthest corner. A convex factor lies between the fragment's own and the chord of [near, far]. Not convex: exp2; linear
+// fog where it starts; any factor across the eye's plane. There the whole range of factors is legal.
 void include_factors_of_pieces(FactorRange& factors, const Fog& fog, const PixelSite& site, double distance) {
   const auto z_eye = [&](std::uint32_t corner) { return site.scene.corners[corner].z_eye; };
   const auto [low, high] = std::ranges::minmax(site.t.corner, {}, z_eye);
@@ -135,7 +134,7 @@ class FragmentColor {
   // between three equal corners, too.
   BoundedFour of_vertices(auto of_corner) const {
     std::array<BoundedFour, 3> corners = at_corners(of_corner);
-    for (BoundedFour& corner : corners) corner.bound += rounding_of_vertices();
+    for (BoundedFour& corner : corners) corner.bound += rounding_of_vertex(corner);
     const bool is_flat = draw_.shading == Shading::flat;
     if (is_flat) corners[0] = corners[1] = corners[2];
     const bool is_given =
@@ -149,8 +148,9 @@ class FragmentColor {
   void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
   BoundedFour textured(const BoundedFour& color) const;
   void fog(BoundedFour& color) const;
-  // Error of a corner's colour, where vertices' colours are codes; else 0. Each plane that cuts rounds once more.
-  double rounding_of_vertices() const;
+  // Error of a corner's colour by its rounding to a code; 0 where vertices' colours are none, or this one is already.
+  // Each plane that cuts rounds once more.
+  double rounding_of_vertex(const BoundedFour& color) const;
   // Half a code, where fragments' colours are codes; else 0.
   double half_code() const;
   // Whether the last rounding counts: the colour is blended or encoded. Else the frame rounds a code to itself.
@@ -203,9 +203,12 @@ BoundedFour FragmentColor::color() const {
   return color;
 }
 
-double FragmentColor::rounding_of_vertices() const {
-  const bool are_codes = has_codes_of_vertices(scene_.frame, site_.scene.conventions);
-  return are_codes ? (1 + site_.t.cuts) * 0.5 / color_scale(scene_.frame.color) : 0;
+double FragmentColor::rounding_of_vertex(const BoundedFour& color) const {
+  if (!has_codes_of_vertices(scene_.frame, site_.scene.conventions)) return 0;
+  const double scale = color_scale(scene_.frame.color);
+  const glm::dvec4 codes = scale * color.value, off = glm::abs(codes - glm::round(codes));
+  const bool is_code = glm::all(glm::lessThanEqual(off, glm::dvec4(scale * (color.bound + 4 * kFloatRounding))));
+  return ((is_code ? 0 : 1) + site_.t.cuts) * 0.5 / scale;
 }
 
 double FragmentColor::half_code() const {

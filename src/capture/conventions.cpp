@@ -39,9 +39,12 @@ bool settles_ties(const Conventions& c) {
   // Edge functions in a frame of 2^15 pixels are exact in double: 2 (15 + 10) + 2 bits.
   constexpr int kFinest = 10;
   const auto is_open = [&](const char* name) { return std::ranges::find(c.open, name) != c.open.end(); };
-  if (c.tie_rule == Conventions::TieRule::any || is_open("subpixel_bits") || is_open("subpixel_rounding")) return false;
+  if (c.tie_rule == Conventions::TieRule::any || is_open("subpixel_bits") || is_open("subpixel_rounding") ||
+      is_open("sample"))
+    return false;
   if (c.subpixel_bits < 1 || c.subpixel_bits > kFinest) return false;
-  if (c.subpixel_rounding != Conventions::Rounding::nearest && c.rows != Conventions::Rows::from_bottom) return false;
+  const bool is_to_nearest = c.subpixel_rounding == Conventions::Rounding::nearest;
+  if (!is_to_nearest && (c.rows != Conventions::Rows::from_bottom || is_open("rows"))) return false;
   const glm::dvec2 sample = std::ldexp(1.0, c.subpixel_bits) * c.sample;
   return sample == glm::round(sample);
 }

@@ -202,9 +202,8 @@ inline constexpr ConventionWords kOffsetWords{"offset_unit", "a polygon offset's
 inline constexpr ConventionWords kFloatOffsetWords{"float_offset_unit", "a polygon offset's unit in depths of floats",
                                                    true};
 
-/// Whether the declared tie rule and grid settle which triangle owns a sample on an edge: a grid of 1/2 to 1/1024 pixel
-/// on which the sample lies, and positions rounded to the nearest place, or rows from the bottom. (In a picture whose
-/// rows count from the top, down and up swap in y alone.)
+/// Whether the declared tie rule and grid settle which triangle owns a sample on an edge: subpixel_bits 1 to 10, the
+/// sample on that grid; where rows count from the top, subpixel_rounding nearest (down and up swap in y alone).
 bool settles_ties(const Conventions& conventions);
 
 /// Text of a number of bits: "float", or the number.

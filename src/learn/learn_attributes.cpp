@@ -211,28 +211,37 @@ void learn_corners(Prober& prober) {
                above = std::ldexp(share, -c.subpixel_bits),
                middle = 60.5 + middle_of(c.color_rounding),  // between two codes
       rise = c.subpixel_bits < 2 ? 0.45 : 0.9;               // of a ramp; colours stay in [0,1]
+  // Ends of ramp i. Where colours of vertices are codes, each ramp rises by another number of codes.
+  const bool are_codes = c.vertex_colors == C::ColorNumbers::in_codes;
+  const auto ends = [&](int i) {
+    const double first = (middle + i) / 255 - rise * (0.5 - above / 2) / 2;
+    if (!are_codes) return glm::dvec2(first, first + rise);
+    return glm::dvec2(std::round(255 * first), std::round(255 * (first + rise)) - i) / 255.0;
+  };
   Scene scene = probe_frame("attribute_corners", kFrameSize, 4);
   std::vector<std::array<ProbeCorner, 3>> triangles;
   for (int i = 0; i < kRamps; ++i) {
-    const double from = 4 * i + 1 + above, first = (middle + i) / 255 - rise * (0.5 - above / 2) / 2;
+    const double from = 4 * i + 1 + above, first = ends(i).x, last = ends(i).y;
     const auto at = [&](double x, double y, double grey) {
       return ProbeCorner{{x, y, 0.5}, glm::vec4(glm::vec3(static_cast<float>(grey)), 1), {}};
     };
-    for (const auto& t :
-         quad({at(from, 0, first), at(from + 2, 0, first + rise), at(from + 2, 4, first + rise), at(from, 4, first)}))
+    for (const auto& t : quad({at(from, 0, first), at(from + 2, 0, last), at(from + 2, 4, last), at(from, 4, first)}))
       triangles.push_back(t);
   }
   add_triangles(scene, triangles);
   const Plane<glm::vec4> color = prober.draw(scene).color;
-  std::size_t lower = 0, upper = 0;
+  std::size_t lower = 0, upper = 0, told = 0;
   for (int i = 0; i < kRamps; ++i) {
     const double code = std::round(255 * static_cast<double>(color(4 * i + 1, 2).r));
-    const double apart = 255 * rise * above / 2;  // codes
-    lower += code == rounded(c.color_rounding, middle + i - apart / 2) ? 1 : 0;
-    upper += code == rounded(c.color_rounding, middle + i + apart / 2) ? 1 : 0;
+    const double first = 255 * ends(i).x, slope = 255 * (ends(i).y - ends(i).x) / 2;
+    const double by_corners = rounded(c.color_rounding, first + slope * (0.5 - above)),
+                 by_grid = rounded(c.color_rounding, first + slope * 0.5);
+    if (by_corners == by_grid) continue;
+    ++told, lower += code == by_corners ? 1 : 0, upper += code == by_grid ? 1 : 0;
   }
-  const std::string evidence = fmt::format("{} of {} ramps", std::max(lower, upper), kRamps);
-  if (std::max(lower, upper) + 1 < kRamps) return prober.open(words, evidence + " at most go by one of the two");
+  const std::string evidence = fmt::format("{} of {} ramps", std::max(lower, upper), told);
+  if (told < 2 || std::max(lower, upper) + 1 < told)
+    return prober.open(words, evidence + " at most go by one of the two");
   prober.learned.conventions.attribute_corners = upper > lower ? C::Corners::snapped : C::Corners::as_they_are;
   prober.found(words, name_of(prober.learned.conventions.attribute_corners), evidence);
 }
@@ -258,7 +267,8 @@ void learn_provoking_vertex(Prober& prober) {
   std::string evidence = fmt::format("a flat triangle of 0.2, 0.5 and 1 is drawn in {:.2g}", left);
   const bool agree = turned == 0 || is(turned, left);  // 0: it is not drawn
   if (!agree) evidence += fmt::format(", a clockwise one in {:.2g}", turned);
-  if (!agree || (!is(left, of_first) && !is(left, of_last))) return prober.fits_none(words, evidence);
+  if (!agree || is(of_first, of_last) || (!is(left, of_first) && !is(left, of_last)))
+    return prober.fits_none(words, evidence);
   prober.learned.conventions.provoking_vertex = is(left, of_last) ? C::Provoking::last : C::Provoking::first;
   prober.found(words, name_of(prober.learned.conventions.provoking_vertex), evidence);
 }

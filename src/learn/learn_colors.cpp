@@ -202,6 +202,7 @@ void learn_alpha_test(Prober& prober) {
 void learn_blending(Prober& prober) {
   const ConventionWords words = words_of("blending");
   if (prober.lacks_linear_colors(words)) return;
+  if (prober.lacks(words, {"color_rounding", "vertex_colors", "fragment_colors"})) return;
   const auto code_under = [](int i) { return (i * 37) % 255; };
   const auto under = [&](int i) { return (static_cast<float>(code_under(i)) + 0.3f) / 255; };  // no code
   const auto over = [](int i) { return static_cast<float>((i * 91 + 40) % 256) / 255; };
@@ -227,11 +228,18 @@ void learn_blending(Prober& prober) {
   const C::Rounding rounding = prober.learned.conventions.color_rounding;
   const Plane<glm::vec4> color = drawn_either_way();
   const C& c = prober.learned.conventions;
-  const bool has_codes = c.vertex_colors == C::ColorNumbers::in_codes || c.fragment_colors == C::ColorNumbers::in_codes;
+  const bool of_vertices = c.vertex_colors == C::ColorNumbers::in_codes;  // rounded to the nearest before all else
+  const auto alpha_of_fragment = [&](double given) {
+    if (of_vertices) return std::round(255 * given) / 255;
+    return c.fragment_colors == C::ColorNumbers::in_codes ? rounded(rounding, 255 * given) / 255 : given;
+  };
+  const auto left_under = [&](int i) {
+    return of_vertices ? static_cast<double>(code_under(i)) : rounded(rounding, code_under(i) + 0.3);
+  };
   double most = 0;
   for (int i = 0; i < kAll; ++i) {
-    const double given = alpha(i), a = has_codes ? rounded(rounding, 255 * given) / 255 : given;
-    const double first = a * 255 * over(i) + (1 - a) * rounded(rounding, code_under(i) + 0.3);
+    const double a = alpha_of_fragment(static_cast<double>(alpha(i)));
+    const double first = a * 255 * over(i) + (1 - a) * left_under(i);
     const double exact = a * 255 * over(i) + (1 - a) * rounded(rounding, first);
     most = farther(most, 255 * static_cast<double>(pixel_of(color, i).r) - exact);
   }

@@ -19,7 +19,7 @@ namespace {
 using C = Conventions;
 
 constexpr int kTexturedSize = 64;
-constexpr int kMostWeightBits = 12;  // more are not told from float
+constexpr int kMostWeightBits = 12;  // finer weights differ from float's by less than the colours' rounding
 
 // A frame filled by a textured rectangle; s and t from `least` to `most`.
 Scene textured_frame(const std::string& name, Texture texture, float most, float least = 0) {
@@ -94,7 +94,7 @@ int bits_of(const WeightErrors& errors, C::Rounding of_colors) {
   return largest > 0 ? std::max(static_cast<int>(std::floor(-std::log2(largest))), 0) : kMostWeightBits;
 }
 
-// True: the errors are of weights rounded to steps of so many bits (up, down or nearest), not of another curve or of a
+// Whether the errors are of weights rounded to steps of so many bits (up, down or nearest), not of another curve or of a
 // displaced sample. Up to 5 bits, steps are as wide as two columns or more, which then have one code.
 bool are_of_rounding(const WeightErrors& errors, int bits) {
   const double step = std::ldexp(1.0, -bits);
@@ -229,7 +229,7 @@ void learn_weights(Prober& prober) {
 void learn_fragment_colors(Prober& prober) {
   const ConventionWords words = words_of("fragment_colors");
   if (prober.lacks_linear_colors(words)) return;
-  if (prober.lacks(words, {"color_rounding"})) return;
+  if (prober.lacks(words, {"color_rounding", kSampleWords.name})) return;
   C& c = prober.learned.conventions;
   const auto code = [](int x, int y) { return 16 * y + x; };
   const double most = texels_off(prober, "fragment_colors", 16, code, {100, 110});

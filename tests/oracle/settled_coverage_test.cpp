@@ -123,6 +123,25 @@ TEST(SettledCoverage, GoesByTheDeclaredRoundingOfPositions) {
   EXPECT_GT(apart, 4u) << "the roundings differ";
 }
 
+// Corners half a step above places, or below them: rounded to places that samples lie on.
+TEST(SettledCoverage, TieRulesHoldWhateverTheRounding) {
+  for (const auto rounding : {C::Rounding::down, C::Rounding::up}) {
+    std::vector<std::array<glm::vec3, 3>> square = kSquare;
+    for (auto& t : square) {
+      for (glm::vec3& p : t) p += (rounding == C::Rounding::down ? 1.0f : -1.0f) / 32 * glm::vec3(1, 1, 0);
+    }
+    for (const auto rule : {C::TieRule::left_bottom, C::TieRule::right_top}) {
+      C grid = declared(rule, 4);
+      grid.subpixel_rounding = rounding;
+      const Legal by = legal(window_scene(square), grid);
+      const std::uint32_t left = rule == C::TieRule::left_bottom ? 1 : 0;
+      EXPECT_EQ(open_pixels(by), 0u) << name_of(rounding) << " " << name_of(rule);
+      EXPECT_EQ(by.certain(4, 16), left) << name_of(rounding) << " " << name_of(rule);
+      EXPECT_EQ(by.certain(28, 16), 1 - left) << name_of(rounding) << " " << name_of(rule);
+    }
+  }
+}
+
 // Fixed point of 11 bits may take a position to the next place before it is rounded down.
 TEST(SettledCoverage, IsOpenBesideWhereTheRoundingChanges) {
   C down = declared(C::TieRule::left_bottom, 4);

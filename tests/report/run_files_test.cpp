@@ -75,6 +75,9 @@ TEST_F(RunFiles, AreReadBackWhole) {
   const std::vector<SceneVerdict> verdicts = {
       failing("light/a"),
       scene("light/b", {disputed, check::not_judged("light/b", "embree", Stage::light, Outcome::unsupported, "why")})};
+  std::vector<SceneVerdict> open = verdicts;
+  open[1].knows_no_color = open[0].empty_holds = true;
+  EXPECT_TRUE(run(open, {}).verdicts[1].knows_no_color && run(open, {}).verdicts[0].empty_holds);
   const CheckRun back = run(verdicts, {2, 3, 5});
   EXPECT_EQ(back.head.shard, (Shard{2, 3, 5}));
   EXPECT_EQ(back.head.versions.at("osmesa"), "1");

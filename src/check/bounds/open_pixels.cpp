@@ -18,15 +18,19 @@ bool tests_alpha(const Scene& scene) {
 
 bool knows_no_color(const Legal& legal) {
   constexpr float kHalfOfRange = 0.5f;
-  if (legal.empty() || !legal.color_lo.empty()) return false;
+  if (legal.empty()) return false;
   bool has_surface = false;
   for (int y = 0; y < legal.certain.height(); ++y) {
     for (int x = 0; x < legal.certain.width(); ++x) {
       const std::span<const LegalAnswer> answers = legal.at(x, y);
       const auto is_drawn = [](const LegalAnswer& a) { return a.primitive != kBackground; };
       if (std::ranges::none_of(answers, is_drawn)) continue;
-      const auto is_known = [](const LegalAnswer& a) { return a.color_bound < kHalfOfRange; };
-      if (std::ranges::all_of(answers, is_known)) return false;
+      if (!legal.color_lo.empty()) {
+        const glm::vec4 range = legal.color_hi(x, y) - legal.color_lo(x, y);
+        if (glm::all(glm::lessThan(range, glm::vec4(2 * kHalfOfRange)))) return false;
+      } else if (std::ranges::all_of(answers, [](const LegalAnswer& a) { return a.color_bound < kHalfOfRange; })) {
+        return false;
+      }
       has_surface = true;
     }
   }

@@ -22,7 +22,7 @@ bool tests_alpha(const Scene& scene);
 /// pixel may be of a primitive. False where legal colours are not those of the winners (Legal::color_lo).
 bool may_be_empty(const Legal& legal);
 /// Whether surfaces are drawn, and at none of their pixels the colour is known: each has a legal answer whose bound is
-/// half of the range of colours or more. False where the answers are intervals of the frame's colour.
+/// half of the range of colours or more.
 bool knows_no_color(const Legal& legal);
 
 /// 1 where the alpha test in the format `theirs` may come out otherwise than the candidate's own, for a fragment of the

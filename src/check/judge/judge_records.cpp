@@ -21,7 +21,7 @@ namespace {
 std::string_view why_by_frame(const Scene& scene, Stage stage, const Conventions& conventions) {
   if (stage == Stage::shade && fogs_by_vertices(scene, conventions))
     return "its fog factors are of vertices: the frame's colours are judged";
-  if (stage == Stage::light && has_codes_of_vertices(scene.frame, conventions))
+  if ((stage == Stage::light || stage == Stage::clip) && has_codes_of_vertices(scene.frame, conventions))
     return "its vertices' colours are codes: the frame's colours are judged";
   if (stage == Stage::attributes && interpolation_of_colors(conventions) != conventions.interpolation)
     return "its colours are interpolated otherwise than other attributes: the frame's colours are judged";

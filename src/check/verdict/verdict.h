@@ -108,7 +108,7 @@ struct SceneVerdict {
   std::vector<Comparison> comparisons;
   double seconds = 0;
   bool empty_holds = false;     ///< the cleared frame is legal, and so is another: who draws nothing cannot fail
-  bool knows_no_color = false;  ///< the legal answers leave open each surface's colour: who paints all red cannot fail
+  bool knows_no_color = false;  ///< no surface's colour is known to half of its range (open_pixels.h)
   std::string failure{};        ///< lines: why it does not hold; empty: it does
   std::string repeat{};         ///< the command that repeats the failure
   /// Known faults, as "STAGE (fault NAME)", that reproduce the candidate's frame; the frame does not distinguish them.

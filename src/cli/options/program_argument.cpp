@@ -230,8 +230,8 @@ std::string convention_notes(const std::string& file) {
         "not judged: which triangle owns a sample on an edge ({})\n",
         conventions.tie_rule == Conventions::TieRule::any
             ? "no tie rule is declared: plumb learn"
-            : "a rule is settled by subpixel_bits 1 to 10 and a sample on that grid alone, and where rows count from "
-              "the top, by subpixel_rounding nearest alone");
+            : "a rule is settled by subpixel_bits 1 to 10, the sample on that grid; where rows count from the top, "
+              "subpixel_rounding nearest");
   return out;
 }
 

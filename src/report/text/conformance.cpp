@@ -31,12 +31,11 @@ bool is_open(const check::SceneVerdict& verdict) {
     if (!check::votes(c) || !check::was_compared(c)) continue;
     const check::Measurement& m = c.measurement;
     const bool is_all = m.items > 0 && m.ambiguous >= m.items, is_color = c.stage == Stage::merge;
-    const bool is_open = c.outcome == check::Outcome::ambiguous_only && (is_all || verdict.empty_holds);
+    const bool is_ambiguous = c.outcome == check::Outcome::ambiguous_only;
     ++rows;
-    open += is_open ? 1 : 0;
+    open += is_ambiguous && (is_all || verdict.empty_holds) ? 1 : 0;
     colors += is_color ? 1 : 0;
-    const bool is_open_color = c.outcome == check::Outcome::ambiguous_only && (is_all || verdict.knows_no_color);
-    open_colors += is_color && is_open_color ? 1 : 0;
+    open_colors += is_color && is_ambiguous && (is_all || verdict.knows_no_color) ? 1 : 0;
   }
   return rows > 0 && (open == rows || (colors > 0 && open_colors == colors));
 }
@@ -59,7 +58,7 @@ std::string unable_reason(const check::SceneVerdict& verdict) {
   if (is_refused_by_program(verdict)) return verdict.comparisons.front().note;
   if (!is_open(verdict)) return "nothing that it left could be judged";
   return verdict.empty_holds ? "a frame in which nothing is drawn holds, too"
-                             : "every colour has several legal answers";
+                             : "every colour of a surface has several legal answers";
 }
 
 const check::Comparison* first_wrong(const check::SceneVerdict& verdict) {

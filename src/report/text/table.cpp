@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kRow = "{:<28} {:<24} {:<10} {:<14} {:>9} {:>9} {:>9}  {:<24} {}\n";
 
-// Tolerances of rows whose values are to be equal but for underflow come to less, in any unit.
+// Upper limit of tolerances that allow for float's underflow alone [any unit].
 constexpr double kOfUnderflow = 1e-30;
 
 std::string largest(const Comparison& c) {

@@ -35,10 +35,12 @@ inline bool is_wrong(const check::SceneVerdict& verdict) {
   return std::ranges::any_of(verdict.comparisons,
                              [](const check::Comparison& c) { return c.outcome == check::Outcome::different; });
 }
-/// Colours were judged, and nothing is different.
+/// Colours were judged, nothing is different, and nothing failed.
 inline bool is_right(const check::SceneVerdict& verdict) {
   const auto judges_colors = [](const check::Comparison& c) { return c.stage == Stage::merge && was_compared(c); };
-  return !is_wrong(verdict) && std::ranges::any_of(verdict.comparisons, judges_colors);
+  const auto is_failed = [](const check::Comparison& c) { return check::is_failure(c.outcome); };
+  return std::ranges::none_of(verdict.comparisons, is_failed) &&
+         std::ranges::any_of(verdict.comparisons, judges_colors);
 }
 
 /// A mipmapped floor in front of the eye that no side of the window cuts.

@@ -309,6 +309,15 @@ TEST_F(ByConventions, ColorsAreOtherwiseInFogOfVerticesAndInCodes) {
   EXPECT_TRUE(draws_otherwise(scene, by_vertices, Stage::shade));
   EXPECT_TRUE(draws_otherwise(scene, by_vertices, Stage::merge));
   EXPECT_TRUE(draws_otherwise(scene, in_codes, Stage::attributes));
+  C of_vertices, affine;
+  of_vertices.vertex_colors = C::ColorNumbers::in_codes;
+  affine.color_interpolation = C::ColorInterpolation::affine;
+  for (const Stage stage : {Stage::light, Stage::clip, Stage::attributes, Stage::merge})
+    EXPECT_TRUE(draws_otherwise(scene, of_vertices, stage));
+  for (const Stage stage : {Stage::vertex, Stage::window, Stage::coverage, Stage::depth, Stage::visibility})
+    EXPECT_FALSE(draws_otherwise(scene, of_vertices, stage)) << name_of(stage);
+  EXPECT_TRUE(draws_otherwise(scene, affine, Stage::attributes));
+  EXPECT_FALSE(draws_otherwise(scene, affine, Stage::light));
   for (const C& c : {by_vertices, in_codes}) {
     EXPECT_FALSE(draws_otherwise(scene, c, Stage::depth));
     EXPECT_FALSE(draws_otherwise(scene, c, Stage::visibility));

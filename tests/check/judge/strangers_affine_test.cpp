@@ -68,6 +68,11 @@ TEST(StrangersAffine, NoColorOfACutFloorIsKnown) {
   EXPECT_FALSE(knows_none(suite_scene("texture/floor_nearest"), C()));
   EXPECT_FALSE(knows_none(test::narrow_floor(), affine));
   EXPECT_FALSE(knows_none(suite_scene("clip/crowd"), affine)) << "some colours are";
+  Scene blended = suite_scene("texture/floor_nearest");
+  const BlendTerm over{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
+  blended.draws[0].merge.blend = Blend{over, over, glm::vec4(0)};
+  EXPECT_TRUE(knows_none(blended, affine));
+  EXPECT_FALSE(knows_none(blended, C()));
 }
 
 }  // namespace

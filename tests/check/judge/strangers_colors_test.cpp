@@ -114,7 +114,7 @@ TEST(StrangersColors, OfVerticesMayBeCodesWhereThatIsDeclared) {
   for (const char* scene : {"interpolation/ramps", "light/sphere_gouraud", "texture/vertex_colors_flat"}) {
     EXPECT_TRUE(is_right(verdict_of(scene, test::make_vertices_in_codes(), in_codes))) << scene;
     EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_vertices_in_codes(), C()))) << scene;
-    EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_vertices_in_codes<3>(), in_codes))) << scene;
+    EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_vertices_in_codes<2>(), in_codes))) << scene;
     EXPECT_TRUE(is_right(verdict_of(scene, pipeline::make_pipeline(), in_codes))) << scene;
   }
 }
