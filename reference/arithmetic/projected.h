@@ -87,7 +87,7 @@ inline double to_window(const Triangle& t, double z_view) {
   const double near = t.range.near, far = t.range.far;
   return near + (far - near) * z_view + t.offset.middle;
 }
-/// Difference of window z per difference of z_view, as an absolute value.
+/// |d z_win / d z_view|.
 inline double range_scale(const Triangle& t) { return std::abs(double{t.range.far} - double{t.range.near}); }
 
 /// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).

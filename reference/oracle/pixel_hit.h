@@ -26,11 +26,11 @@ struct PixelHit {
   /// In double, the pixel is covered (`covers` where it is known, else with ties by rule left_bottom), in depth
   /// range, and not culled.
   bool inside = false;
-  bool whole = false;      ///< not culled, not cut here in depth, and side cuts round alike: may join a group
-  PixelDepth view;         ///< z_view: 0 on the near plane, 1 on the far one; not clamped. half: as far as cuts move
-  PixelDepth win;          ///< window z; clamped to the depth range under depth clamp
-  bool drawn = false;      ///< inside, and passed all tests in double (oracle.h)
-  double delta = 0;        ///< largest displacement of the triangle's outline here [pixels]
+  bool whole = false;  ///< not culled, not cut here in depth, and side cuts round alike: may join a group
+  PixelDepth view;     ///< z_view: 0 on the near plane, 1 on the far one; not clamped. half: with snapping, as for cuts
+  PixelDepth win;      ///< window z; clamped to the depth range under depth clamp
+  bool drawn = false;  ///< inside, and passed all tests in double (oracle.h)
+  double delta = 0;    ///< largest displacement of the triangle's outline here [pixels]
   bool colored = false;    ///< the colour and its bound are set
   double alpha_bound = 0;  ///< of hit.color.a alone
   /// Whether every renderer of the declared grid and tie rule covers the pixel, or none does; nullopt: open.

@@ -7,7 +7,7 @@
 
 namespace plumbline::learn {
 
-/// Draws the probes. Throws RendererFailed where the first or three others fail, and Unsupported where the renderer
+/// Draws the probes. Throws RendererFailed if the first probe or any three others fail, and Unsupported where the renderer
 /// cannot draw a rectangle.
 Learned learn(Renderer& renderer);
 

@@ -40,7 +40,7 @@ Draw& add_tiles(Scene& scene, auto color_of) {
   return add_triangles(scene, triangles);
 }
 
-// Above code i, in each channel another share of a code: 1/16, 3/16, ... 15/16.
+// Code i plus 1/16, 3/16, ... or 15/16 code, another in each channel.
 glm::vec4 between_codes(int i) {
   const auto above = [&](int channel) { return static_cast<float>((3 * i + 2 * channel) % 8 * 2 + 1) / 16; };
   const auto code = static_cast<float>(std::min(i, 254));
@@ -174,9 +174,8 @@ void learn_vertex_colors(Prober& prober) {
   prober.found(words, name_of(c.vertex_colors), evidence);
 }
 
-// Alphas of 128.2 codes against 127.8, and of 128.4 against 128.1: greater as floats, and of one code. Truncated codes,
-// and codes rounded up, differ in the first pair. Alpha 128.1 is greater than 128.4 where the reference alone is
-// truncated.
+// Alphas of 128.2 codes against 127.8, and of 128.4 against 128.1: greater as floats, equal as nearest codes. Codes
+// rounded down or up differ in the first pair alone. 128.1 passes against 128.4 if the reference alone is truncated.
 void learn_alpha_test(Prober& prober) {
   const ConventionWords words = words_of("alpha_test");
   const auto passes = [&](float alpha, float reference) {

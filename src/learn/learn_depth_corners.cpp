@@ -55,7 +55,7 @@ void learn_depth_corners(Prober& prober) {
   }
   if (prober.lacks(words, {"sample", "subpixel_bits", "subpixel_rounding", "depth_range"})) return;
   const double off = off_grid(c), apart = kRise * off;
-  const int column = c.sample.x < 0.25 ? 2 : 1;  // whose sample is in the ramp by both positions
+  const int column = c.sample.x < 0.25 ? 2 : 1;  // whose sample is in the snapped ramp
   const double as_it_is = kFirst + kRise * (column + c.sample.x - 1 - off), snapped = as_it_is + apart;
   Scene scene = ramps(c, off);
   scene.frame.depth = DepthFormat::z24;

@@ -71,8 +71,8 @@ std::optional<double> snapped(double offset, int bits, C::Rounding rounding) {
   return std::ldexp(rounded(rounding, place), -bits);
 }
 
-// A grid, and the sample's place in its pixel that the edges give by this grid. The grid explains the edges if all give
-// nearly the same place.
+// A grid, and the sample position that edges imply under it. The grid explains the edges if all imply nearly one
+// position.
 struct Grid {
   int bits = C::kFloat;
   C::Rounding rounding = C::Rounding::nearest;

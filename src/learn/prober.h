@@ -22,7 +22,7 @@ struct LearnedRow {
   std::string evidence;  ///< "768 of 768 colours", or the reason for "open"
 };
 
-/// A probe's picture, by the conventions found before it (to_dialect()).
+/// A probe's picture, converted by the conventions found so far (to_dialect()).
 struct ProbePicture {
   std::string name;
   Plane<glm::vec4> color;

@@ -26,8 +26,8 @@ struct ReferenceCaptures {
   std::vector<std::optional<Refusal>> refusals;
 };
 
-/// Captures of the references: geometry records; coverage records where lines are drawn; planes. Planes are omitted for
-/// referees, and for oracles without `legal`. Legal answers are captured if `legal` is set and the budget allows.
+/// Captures of the references: geometry records; coverage records where lines are drawn; planes. No planes of
+/// referees, nor of oracles where `legal` is not set. Legal answers are captured if `legal` is set and the budget allows.
 ReferenceCaptures capture_references(const Scene& scene, std::span<const Reference> references, bool legal,
                                      const Conventions& conventions);
 

@@ -14,7 +14,7 @@ bool has_other_volume(const Conventions& conventions);
 /// Whether a draw's fog factors are computed at vertices. Records of fragments do not hold these factors.
 bool fogs_by_vertices(const Scene& scene, const Conventions& conventions);
 
-/// Whether the conventions make another stage than OpenGL's.
+/// Whether the stage's result differs from OpenGL's by these conventions.
 bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage);
 
 /// Whether run_by_conventions() knows which triangle owns a sample on an edge: the rule is settled (conventions.h,
@@ -24,7 +24,7 @@ bool knows_ties(const Scene& scene, const Conventions& conventions);
 
 /// referee.run_stage(scene, stage, in), but for what the conventions say otherwise than OpenGL:
 /// - window: positions are moved as to_dialect() moves them; a triangle's area and facing are those on the declared
-///   grid. Corners that are not snapped count on a grid of 16 bits, or of fewer where positions exceed 31 bits;
+///   grid. Corners that are not snapped count on a grid of 16 bits, or of fewer where positions reach 2^30 steps;
 /// - coverage: where knows_ties(), triangles own samples on their edges by the declared rule;
 /// - depth, attributes, texture: where no corner is snapped, triangles face as their unsnapped corners do, between
 ///   which the renderer interpolates; where depth_corners (depth) or attribute_corners are snapped, the renderer

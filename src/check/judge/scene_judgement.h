@@ -43,7 +43,7 @@ struct SceneJudgement {
     m.ambiguous += open;
     rows.push_back(judged(scene.name, judge, stage, std::move(m), row, std::move(note)));
   }
-  /// Legal answers of coverage where the candidate's tie rule is not known, else none.
+  /// Legal answers of coverage for a foreign candidate, else none.
   const Legal& open_coverage() const {
     static const Legal none;
     return foreign ? legal : none;

@@ -22,8 +22,7 @@ struct ColorAndDepth {
 /// A frame to be explained, the conventions that it is drawn by, and what is known about it.
 struct GivenFrame : ColorAndDepth {
   Conventions conventions;
-  /// 1: the pixel is legal; where it differs from ours, it counts neither for a fault nor against one. Empty: not
-  /// known.
+  /// 1: the pixel is legal; where it differs from ours, from() leaves it out, against() counts it. Empty: not known.
   Plane<std::uint8_t> is_legal{};
   /// Legality of the colour alone: the depth may be wrong.
   Plane<std::uint8_t> is_legal_color{};

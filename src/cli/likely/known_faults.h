@@ -14,7 +14,7 @@ namespace plumbline::cli {
 /// Whether the fault is of one of these stages: one of the viewport is of `window`, one of a file of `merge`.
 bool is_of(const StageSet& stages, const KnownFault& fault);
 
-/// Faults that pictures alone show, and --fault does not know: one for each name.
+/// Faults drawn for comparison only, not selectable by --fault; one for each name.
 std::vector<KnownFault> picture_faults();
 
 /// All that are known, less those of stages that are right (GivenFrame::right), and those that the conventions declare

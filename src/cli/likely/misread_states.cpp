@@ -321,9 +321,10 @@ std::vector<MisreadState> all_states() {
        of_draws([](Draw& d) { return reset(d.depth_func, DepthFunc::always); })},
       {"visibility", "depth_mask_ignored", "depths are written, though they are masked",
        of_draws([](Draw& d) { return reset(d.merge.depth_mask, true); })},
-      {"visibility", "depth_func_stays", "a draw without a depth function has that of the draw before",
+      {"visibility", "depth_func_stays", "a draw of depth function less has that of the draw before",
        stays<&Draw::depth_func>()},
-      {"visibility", "depth_mask_stays", "after a draw that leaves no depths, none does", stays<&Merge::depth_mask>()},
+      {"visibility", "depth_mask_stays", "depth writes stay off after a draw without them",
+       stays<&Merge::depth_mask>()},
       {"visibility", "alpha_test_stays", "a draw without an alpha test has that of the draw before",
        stays<&Draw::alpha_test>()},
       {"visibility", "clear_depth_ignored", "the depth is cleared to 1",
@@ -332,8 +333,7 @@ std::vector<MisreadState> all_states() {
        of_draws([](Draw& d) { return reset(d.stencil); })},
       {"visibility", "stencil_back_ignored", "back faces have the front faces' stencil test",
        of_draws([](Draw& d) { return d.stencil && reset(d.stencil->back, d.stencil->front); })},
-      {"visibility", "depth_fail_as_fail", "where the depth test fails, the op of a stencil test that fails is taken",
-       of_draws([](Draw& d) {
+      {"visibility", "depth_fail_as_fail", "depth_fail is taken for fail in stencil ops", of_draws([](Draw& d) {
          if (!d.stencil) return false;
          const bool front = reset(d.stencil->front.depth_fail, d.stencil->front.fail);
          return reset(d.stencil->back.depth_fail, d.stencil->back.fail) || front;
