@@ -1,10 +1,10 @@
 // Coverage that declared conventions decide.
 //
 // For a renderer that declares its grid and its tie rule (settles_ties()), coverage is open only where a corner may be
-// snapped to several grid points: its position in double lies within corner_displacement(), and for roundings down and up
-// kOfFixedPoint, of a position where the rounding changes. To the nearest, that is the middle between two grid points;
-// down and up, a grid point. Coverage is known where all grid points of all three corners give the same answer; the tie
-// rule settles edge functions that are 0.
+// snapped to several grid points: its position in double lies within corner_displacement(), and for roundings down and
+// up kOfFixedPoint, of a position where the rounding changes. To the nearest, that is the middle between two grid
+// points; down and up, a grid point. Coverage is known where all grid points of all three corners give the same answer;
+// the tie rule settles edge functions that are 0.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +20,8 @@ namespace {
 
 using C = Conventions;
 
-/// Largest displacement of a position that is converted to the nearest multiple of 2^-11 before it is rounded down or up
-/// [pixels].
+/// Largest displacement of a position that is converted to the nearest multiple of 2^-11 before it is rounded down or
+/// up [pixels].
 constexpr double kOfFixedPoint = 0x1p-12;
 
 /// Grid points to which a corner may be snapped, from the window's lower left corner [steps of the grid]; none: any.

@@ -88,9 +88,9 @@ struct FactorRange {
 };
 
 // Includes the factors that pieces of a cut triangle may interpolate at a fragment of that distance [eye units].
-// Distances of a piece's corners lie in [near, far]: from the triangle's nearest corner, or the near plane's cut, to its
-// farthest corner. A convex factor lies between the fragment's own and the chord of [near, far]. Not convex: exp2; linear
-// fog where it starts; any factor across the eye's plane. There the whole range of factors is legal.
+// Distances of a piece's corners lie in [near, far]: from the triangle's nearest corner, or the near plane's cut, to
+// its farthest corner. A convex factor lies between the fragment's own and the chord of [near, far]. Not convex: exp2;
+// linear fog where it starts; any factor across the eye's plane. There the whole range of factors is legal.
 void include_factors_of_pieces(FactorRange& factors, const Fog& fog, const PixelSite& site, double distance) {
   const auto z_eye = [&](std::uint32_t corner) { return site.scene.corners[corner].z_eye; };
   const auto [low, high] = std::ranges::minmax(site.t.corner, {}, z_eye);

@@ -53,8 +53,8 @@ class PixelSite {
   bool may_turn_over(bool certain) const { return !certain && (t.cut || t.thin); }
   /// Edge functions that weight the corners' attributes.
   std::array<glm::dvec3, 3> weight_planes(Conventions::Interpolation how) const;
-  /// Whether texture coordinates go by weight_planes(). Without perspective, the pieces of a cut triangle have planes of
-  /// their own.
+  /// Whether texture coordinates go by weight_planes(). Without perspective, the pieces of a cut triangle have planes
+  /// of their own.
   bool has_one_plane() const {
     return scene.conventions.interpolation == Conventions::Interpolation::perspective || !t.cut;
   }

@@ -7,8 +7,8 @@
 
 namespace plumbline::learn {
 
-/// Draws the probes. Throws RendererFailed if the first probe or any three others fail, and Unsupported where the renderer
-/// cannot draw a rectangle.
+/// Draws the probes. Throws RendererFailed if the first probe or any three others fail, and Unsupported where the
+/// renderer cannot draw a rectangle.
 Learned learn(Renderer& renderer);
 
 /// A table for people: each convention, its evidence, and what no convention explains.

@@ -94,8 +94,8 @@ int bits_of(const WeightErrors& errors, C::Rounding of_colors) {
   return largest > 0 ? std::max(static_cast<int>(std::floor(-std::log2(largest))), 0) : kMostWeightBits;
 }
 
-// Whether the errors are of weights rounded to steps of so many bits (up, down or nearest), not of another curve or of a
-// displaced sample. Up to 5 bits, steps are as wide as two columns or more, which then have one code.
+// Whether the errors are of weights rounded to steps of so many bits (up, down or nearest), not of another curve or of
+// a displaced sample. Up to 5 bits, steps are as wide as two columns or more, which then have one code.
 bool are_of_rounding(const WeightErrors& errors, int bits) {
   const double step = std::ldexp(1.0, -bits);
   if (bits <= 5 && errors.codes.size() > (std::size_t{1} << bits) + 1) return false;

@@ -129,8 +129,7 @@ class CaptureFolder : public TestFolder {
     const fs::path folder = root_ / "harmed";
     if (good_.empty()) {
       write_capture(make_capture(), folder);
-      for (const auto& entry : fs::directory_iterator(folder))
-        good_[entry.path().filename()] = test::text_of(entry.path());
+      for (const fs::path& file : fs::directory_iterator(folder)) good_[file.filename()] = test::text_of(file);
     }
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (!entry.is_regular_file() || entry.is_symlink() || !good_.contains(entry.path().filename())) {

@@ -27,7 +27,8 @@ struct ReferenceCaptures {
 };
 
 /// Captures of the references: geometry records; coverage records where lines are drawn; planes. No planes of
-/// referees, nor of oracles where `legal` is not set. Legal answers are captured if `legal` is set and the budget allows.
+/// referees, nor of oracles where `legal` is not set. Legal answers are captured if `legal` is set and the budget
+/// allows.
 ReferenceCaptures capture_references(const Scene& scene, std::span<const Reference> references, bool legal,
                                      const Conventions& conventions);
 
