@@ -201,7 +201,6 @@ void learn_alpha_test(Prober& prober) {
 void learn_blending(Prober& prober) {
   const ConventionWords words = words_of("blending");
   if (prober.lacks_linear_colors(words)) return;
-  if (prober.lacks(words, {"color_rounding", "vertex_colors", "fragment_colors"})) return;
   const auto code_under = [](int i) { return (i * 37) % 255; };
   const auto under = [&](int i) { return (static_cast<float>(code_under(i)) + 0.3f) / 255; };  // no code
   const auto over = [](int i) { return static_cast<float>((i * 91 + 40) % 256) / 255; };
