@@ -330,10 +330,10 @@ void learn_levels(Prober& prober) {
   if (prober.lacks_linear_colors(words) || prober.lacks(words, {kSampleWords.name, "interpolation"})) return;
   const Plane<glm::vec4> color = prober.draw(floor_scene()).color;
   Levels levels = levels_of(color, c.sample, c.interpolation);
-  // Without perspective, levels may still be those of the surface.
-  if (const Levels of_surface = levels_of(color, c.sample, C::Interpolation::perspective);
-      of_surface.of_square > levels.of_square)
-    levels = of_surface;
+  if (c.interpolation == C::Interpolation::affine) {  // levels may still be those of the surface
+    const Levels of_surface = levels_of(color, c.sample, C::Interpolation::perspective);
+    if (of_surface.of_square > levels.of_square) levels = of_surface;
+  }
   using enum C::LevelOfDetail;
   const bool one_each = levels.squares > 0 && levels.alike * 10 >= levels.squares * 9;
   const std::string evidence = fmt::format(

@@ -9,28 +9,17 @@
 #include "capture/capture.h"
 #include "reference/oracle/oracle.h"
 #include "scene/scene.h"
+#include "tests/oracle/window_answers.h"
 
 namespace plumbline::math {
 namespace {
 
 /// White triangles in the window's coordinates, all at depth z.
 Scene flat_scene(const std::vector<std::array<glm::vec2, 3>>& triangles, float z = 0.5f) {
-  Scene scene;
-  scene.name = "flat";
-  scene.frame.width = scene.frame.height = 64;
-  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
-  scene.projection = Orthographic{0, 64, 0, 64, 0, 1};
-  Mesh mesh;
-  for (const auto& t : triangles) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const glm::vec2 p : t) mesh.positions.emplace_back(p, -z);
-    mesh.triangles.emplace_back(first, first + 1, first + 2);
-  }
-  mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
-  scene.meshes = {mesh};
-  Draw draw;
-  draw.lit = false;
-  scene.draws = {draw};
+  std::vector<std::array<glm::vec3, 3>> at_depth;
+  for (const auto& [a, b, c] : triangles) at_depth.push_back({glm::vec3(a, z), {b, z}, {c, z}});
+  Scene scene = window_scene(at_depth, 64);
+  scene.meshes[0].colors.clear();
   return scene;
 }
 

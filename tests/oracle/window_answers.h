@@ -12,19 +12,19 @@ namespace plumbline::math {
 
 inline constexpr int kSize = 32;
 
-/// Triangles in the window's coordinates, with a depth for each corner, from black to white along x.
-inline Scene window_scene(const std::vector<std::array<glm::vec3, 3>>& triangles) {
+/// Triangles in the coordinates of a square window, with a depth for each corner, from black to white along x.
+inline Scene window_scene(const std::vector<std::array<glm::vec3, 3>>& triangles, int size = kSize) {
   Scene scene;
   scene.name = "window";
-  scene.frame.width = scene.frame.height = kSize;
+  scene.frame.width = scene.frame.height = size;
   scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
-  scene.projection = Orthographic{0, kSize, 0, kSize, 0, 1};
+  scene.projection = Orthographic{0, 1.0 * size, 0, 1.0 * size, 0, 1};
   Mesh mesh;
   for (const auto& t : triangles) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const glm::vec3 p : t) {
       mesh.positions.emplace_back(p.x, p.y, -p.z);
-      mesh.colors.emplace_back(glm::vec3(p.x / kSize), 1);
+      mesh.colors.emplace_back(glm::vec3(p.x / static_cast<float>(size)), 1);
     }
     mesh.triangles.emplace_back(first, first + 1, first + 2);
   }
