@@ -166,7 +166,10 @@ std::string summary_of(const CheckRules& rules, const JudgedRun& run, bool holds
   }
   if (!o.expect.empty()) out += settled_line(run.settled, rules.expectations.size());
   out += report::summary(run.verdicts, holds, seconds);
-  if (!holds && report::all_hold(run.verdicts)) out += "the scenes hold: FAILED by conventions or expectations alone\n";
+  if (!holds && report::all_hold(run.verdicts)) {
+    out += fmt::format("{}: FAILED by conventions or expectations alone\n",
+                       check::any_judged(run.verdicts) ? "the scenes hold" : "no scene could be judged");
+  }
   return out;
 }
 

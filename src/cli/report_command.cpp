@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/atomic_path.h"
 #include "check/verdict/expectations.h"
+#include "check/verdict/verdict.h"
 #include "cli/commands.h"
 #include "cli/options/outputs.h"
 #include "cli/options/references.h"
@@ -112,6 +114,8 @@ int report_merge(const MergeOptions& o) {
   if (!o.junit.empty()) write_file(o.junit, report::junit(run.verdicts, failures));
   if (!o.markdown.empty()) write_file(o.markdown, report::markdown(run.verdicts, of_run + summary));
   if (!o.ledger.empty()) report::write_ledger(o.ledger, run.verdicts);
+  if (holds && !run.verdicts.empty() && !check::any_judged(run.verdicts))
+    throw std::invalid_argument("expected a run in which a scene was judged, found none");
   return holds ? kHolds : kDiffers;
 }
 

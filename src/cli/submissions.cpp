@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/atomic_path.h"
+#include "check/verdict/verdict.h"
 #include "cli/judge_in_workers.h"
 #include "cli/options/outputs.h"
 #include "cli/options/program_argument.h"
@@ -107,7 +108,7 @@ int check_submissions(const CheckRules& given, std::span<const Scene> scenes,
     judge_in_workers(scenes, rules, words, [&](JudgedScene judged) { verdicts.push_back(std::move(judged.verdict)); });
     rows.push_back({report::as_utf8(folder.filename().string()), rubric ? points_of(*rubric, verdicts) : "-",
                     report::whole_suite(verdicts)});
-    all_hold &= report::all_hold(verdicts);
+    all_hold &= report::all_hold(verdicts) && check::any_judged(verdicts);
     fmt::print("{}", line(rows.back()));
     std::fflush(stdout);
     if (!rubric) continue;

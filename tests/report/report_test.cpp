@@ -178,6 +178,12 @@ TEST_F(Reports, ASummaryOfNothingIsNotOk) {
   Comparison excused = not_compared(Outcome::missing, "");
   excused.outcome = Outcome::expected;
   EXPECT_TRUE(summary(std::vector{verdict_of({excused})}, true, 0).starts_with("nothing was judged: "));
+  SceneVerdict open = verdict_of({compared(Outcome::ambiguous_only, 1, 1)});
+  EXPECT_TRUE(summary(std::vector{open}, true, 0).starts_with("ok")) << "some pixels have one legal answer";
+  EXPECT_NE(scene_line(open).find(" holds: "), std::string::npos) << scene_line(open);
+  open.empty_holds = true;
+  EXPECT_TRUE(summary(std::vector{open}, true, 0).starts_with("nothing was judged: ")) << "the cleared frame holds";
+  EXPECT_NE(scene_line(open).find(" not judged: "), std::string::npos) << scene_line(open);
 }
 
 TEST_F(Reports, JsonHasAllKeys) {

@@ -272,6 +272,10 @@ TEST_F(RunFiles, AsJUnit) {
   const std::string text =
       junit(std::vector{failing("light/a"), scene("light/b", {scene_row("light/b", Stage::clip, Outcome::equal)}),
                         scene("light/c", {scene_row("light/c", Stage::clip, Outcome::unsupported)})});
+  SceneVerdict open = scene("light/d", {scene_row("light/d", Stage::depth, Outcome::ambiguous_only)});
+  open.empty_holds = true;
+  EXPECT_NE(junit(std::vector{open}).find("<skipped message=\"nothing was judged\"/>"), std::string::npos)
+      << "the cleared frame holds";
   EXPECT_NE(
       text.find(
           "<testsuite name=\"plumb check\" tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\" time=\"1.500\">"),

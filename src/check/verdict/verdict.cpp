@@ -173,9 +173,24 @@ bool is_by_frame_alone(const SceneVerdict& verdict) {
   });
 }
 
-bool any_judged(std::span<const SceneVerdict> verdicts) {
-  return std::ranges::any_of(verdicts, [](const SceneVerdict& v) { return !judged_stages(v).empty(); });
+bool is_open(const SceneVerdict& verdict) {
+  std::size_t rows = 0, open = 0, colors = 0, open_colors = 0;
+  for (const Comparison& c : verdict.comparisons) {
+    if (!votes(c) || !was_compared(c)) continue;
+    const Measurement& m = c.measurement;
+    const bool is_all = m.items > 0 && m.ambiguous >= m.items, is_color = c.stage == Stage::merge;
+    const bool is_ambiguous = c.outcome == Outcome::ambiguous_only;
+    ++rows;
+    open += is_ambiguous && (is_all || verdict.empty_holds) ? 1 : 0;
+    colors += is_color ? 1 : 0;
+    open_colors += is_color && is_ambiguous && (is_all || verdict.knows_no_color) ? 1 : 0;
+  }
+  return rows > 0 && (open == rows || (colors > 0 && open_colors == colors));
 }
+
+bool is_judged(const SceneVerdict& verdict) { return !judged_stages(verdict).empty() && !is_open(verdict); }
+
+bool any_judged(std::span<const SceneVerdict> verdicts) { return std::ranges::any_of(verdicts, is_judged); }
 
 std::string judged_text(const SceneVerdict& verdict) {
   std::vector<std::pair<std::string, std::string>> lacking;  // a reason, and its stages

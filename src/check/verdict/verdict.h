@@ -139,7 +139,12 @@ bool is_legal(const SceneVerdict& verdict, Stage stage);
 std::vector<Stage> judged_stages(const SceneVerdict& verdict);
 /// Whether depth and merge alone were compared, as a frame shows them: an earlier stage may be what is wrong.
 bool is_by_frame_alone(const SceneVerdict& verdict);
-/// Whether a reference judged a stage of a scene.
+/// Whether the frame could hold anything: every item compared has several legal answers, or so has every colour of the
+/// frame or of its surfaces, or the cleared frame holds, too.
+bool is_open(const SceneVerdict& verdict);
+/// Whether a reference judged a stage of the scene, and the scene is not open.
+bool is_judged(const SceneVerdict& verdict);
+/// Whether a scene was judged (is_judged()).
 bool any_judged(std::span<const SceneVerdict> verdicts);
 /// For people: how many of the 13 stages were judged, and why the others were not.
 std::string judged_text(const SceneVerdict& verdict);

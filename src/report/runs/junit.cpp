@@ -27,7 +27,7 @@ std::string xml(std::string text) {
 
 std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const std::string> of_run) {
   const auto fails = [](const check::SceneVerdict& v) { return !v.failure.empty(); };
-  const auto is_unjudged = [&](const check::SceneVerdict& v) { return !fails(v) && check::judged_stages(v).empty(); };
+  const auto is_unjudged = [&](const check::SceneVerdict& v) { return !fails(v) && !check::is_judged(v); };
   const auto failures = std::ranges::count_if(verdicts, fails), skipped = std::ranges::count_if(verdicts, is_unjudged);
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites><testsuite name=\"plumb check\" tests=\"{}\" "

@@ -23,23 +23,6 @@ std::vector<std::pair<std::string, std::size_t>> by_count(const Counts& counts) 
   return out;
 }
 
-// Whether rows of the frame leave open what it holds: every item compared has several legal answers, or so has every
-// colour of the frame or of its surfaces, or a program that draws nothing holds.
-bool is_open(const check::SceneVerdict& verdict) {
-  std::size_t rows = 0, open = 0, colors = 0, open_colors = 0;
-  for (const check::Comparison& c : verdict.comparisons) {
-    if (!check::votes(c) || !check::was_compared(c)) continue;
-    const check::Measurement& m = c.measurement;
-    const bool is_all = m.items > 0 && m.ambiguous >= m.items, is_color = c.stage == Stage::merge;
-    const bool is_ambiguous = c.outcome == check::Outcome::ambiguous_only;
-    ++rows;
-    open += is_ambiguous && (is_all || verdict.empty_holds) ? 1 : 0;
-    colors += is_color ? 1 : 0;
-    open_colors += is_color && is_ambiguous && (is_all || verdict.knows_no_color) ? 1 : 0;
-  }
-  return rows > 0 && (open == rows || (colors > 0 && open_colors == colors));
-}
-
 // Whether the program refused the scene. Its reason stands in a row of its own, the first of an antialiased scene's
 // passes.
 bool is_refused_by_program(const check::SceneVerdict& verdict) {
@@ -56,7 +39,7 @@ std::string counted(const std::vector<std::pair<std::string, std::size_t>>& coun
 
 std::string unable_reason(const check::SceneVerdict& verdict) {
   if (is_refused_by_program(verdict)) return verdict.comparisons.front().note;
-  if (!is_open(verdict)) return "nothing that it left could be judged";
+  if (!check::is_open(verdict)) return "nothing that it left could be judged";
   return verdict.empty_holds ? "a frame in which nothing is drawn holds, too"
                              : "every colour of a surface has several legal answers";
 }
@@ -88,7 +71,7 @@ Conformance conformance_of(const check::SceneVerdict& verdict) {
   if (first_wrong(verdict) != nullptr) return Conformance::differs;
   if (any([](const check::Comparison& c) { return c.outcome == check::Outcome::failed; })) return Conformance::failed;
   if (any([](const check::Comparison& c) { return c.outcome == check::Outcome::expected; })) return Conformance::known;
-  if (check::judged_stages(verdict).empty() || is_open(verdict)) return Conformance::unable;
+  if (!check::is_judged(verdict)) return Conformance::unable;
   return check::first_different(verdict) != nullptr ? Conformance::legal : Conformance::holds;
 }
 

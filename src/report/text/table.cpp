@@ -151,8 +151,8 @@ struct Tally {
 std::string scene_line(const SceneVerdict& verdict) {
   Tally tally;
   tally.add(verdict);
-  const bool judged = check::any_judged(std::span(&verdict, 1));
-  return fmt::format("{:<28} {}: {}\n", verdict.scene, judged ? "holds" : "not judged", tally.text());
+  const char* word = check::is_judged(verdict) ? "holds" : "not judged";
+  return fmt::format("{:<28} {}: {}\n", verdict.scene, word, tally.text());
 }
 
 std::string group_lines(std::span<const SceneVerdict> verdicts) {
