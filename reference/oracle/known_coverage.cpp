@@ -20,10 +20,6 @@ namespace {
 
 using C = Conventions;
 
-/// Largest displacement of a position that is converted to the nearest multiple of 2^-11 before it is rounded down or
-/// up [pixels].
-constexpr double kOfFixedPoint = 0x1p-12;
-
 /// Grid points to which a corner may be snapped, from the window's lower left corner [steps of the grid]; none: any.
 struct GridPoints {
   std::array<glm::dvec2, 4> at;

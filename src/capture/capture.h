@@ -41,6 +41,9 @@ constexpr std::uint64_t id_weight(std::uint32_t primitive) {
          static_cast<std::uint64_t>(id_weight_part(primitive, 2)) << 40;
 }
 
+/// Whose places on the grid window.snapped holds: the renderer's, or p_win snapped by the conventions.
+enum class Places { given, derived };
+
 struct Capture {
   std::string renderer;  ///< name of the renderer
   std::string version;   ///< the renderer's (RendererInfo)
@@ -55,8 +58,9 @@ struct Capture {
   /// (complete_records.h).
   std::set<std::string> derived;
   std::set<std::string> without_records;  ///< groups whose arrays a folder holds with 0 records, such as "window"
-  bool depth_in_float = false;            ///< planes.depth was read from f32: complete_records() finds the codes
-  Legal legal;                            ///< an oracle's legal answers for each pixel
+  Places places = Places::given;
+  bool depth_in_float = false;  ///< planes.depth was read from f32: complete_records() finds the codes
+  Legal legal;                  ///< an oracle's legal answers for each pixel
 };
 
 }  // namespace plumbline

@@ -269,6 +269,7 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   sort_triangles(capture);
   sort_fragments(capture);
   visit_capture(ClearUnused{draws, r}, capture);
+  capture.places = capture.derived.contains("window.snapped") ? Places::derived : Places::given;
   capture.derived.clear();
   const DepthFormat format = depth_format_of(scene.frame, conventions);
   const double codes = depth_scale(format);

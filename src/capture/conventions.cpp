@@ -31,6 +31,13 @@ double snapped(const Conventions& conventions, double from_centre) {
   return rounded(conventions.subpixel_rounding, from_centre / steps) * steps;
 }
 
+SnappedRange snapped_range(const Conventions& conventions, double from_centre) {
+  constexpr double kSteps = 256;  // of 1/256 pixel
+  const bool is_to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
+  const double before = is_to_nearest ? 0 : kSteps * kOfFixedPoint;
+  return {snapped(conventions, from_centre - before), snapped(conventions, from_centre + before)};
+}
+
 double on_grid(const Conventions& conventions, double p_win) {
   return rounded(conventions.subpixel_rounding, std::ldexp(p_win - 0.5, conventions.subpixel_bits));
 }

@@ -138,6 +138,17 @@ double srgb_encoded(double linear);
 /// A window coordinate, counted from the first pixel's centre [1/256 pixel], snapped to the grid of the conventions;
 /// rounded to the nearest whole number where that grid is finer than 1/256 pixel, or there is none.
 double snapped(const Conventions& conventions, double from_centre);
+/// Largest displacement [pixels] of a position that is converted to the nearest multiple of 2^-11 before it is rounded
+/// down or up.
+inline constexpr double kOfFixedPoint = 0x1p-12;
+
+/// Range of snapped() of coordinates that are displaced before they are rounded: down and up by at most kOfFixedPoint;
+/// to the nearest, not at all.
+struct SnappedRange {
+  double least, most;
+};
+SnappedRange snapped_range(const Conventions& conventions, double from_centre);
+
 /// A window coordinate [pixel] on the grid of the conventions, whatever its fineness, counted from the first pixel's
 /// centre [the grid's steps, 2^-subpixel_bits pixel]. There must be a grid.
 double on_grid(const Conventions& conventions, double p_win);

@@ -78,17 +78,26 @@ bool are_sums_of(const Records<double>& records, const Planes& planes) {
          (planes.id_sum.empty() || sums.id_sum.values() == planes.id_sum.values());
 }
 
-namespace {
+namespace {}  // namespace
 
-// Whether rounding in float decides where a corner is snapped to: it lies between two places of the grid, but for 4 u.
-bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions) {
+bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, Places places) {
   const double steps = std::exp2(conventions.subpixel_bits);
+  if (conventions.subpixel_rounding != Conventions::Rounding::nearest) {
+    const auto is_at_line = [&](double p_win) {
+      const auto [least, most] = snapped_range(conventions, (p_win - 0.5) * kSubpixel);
+      return least != most;
+    };
+    return places == Places::derived &&
+           std::ranges::any_of(t.v, [&](const auto& v) { return is_at_line(v.p_win.x) || is_at_line(v.p_win.y); });
+  }
   const auto is_between = [&](double p_win) {
     const double middle = p_win * steps - 0.5;
     return std::abs(middle - std::nearbyint(middle)) <= 4 * u * std::max(std::abs(middle), steps);
   };
   return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(v.p_win.x) || is_between(v.p_win.y); });
 }
+
+namespace {
 
 // edge_displacement() of a triangle's edges.
 double of_steps(const WindowTriangle<double>& t, const Conventions& conventions) {
@@ -147,7 +156,7 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
   // By one grid both sides snap a corner to one place.
   const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
     const WindowTriangle<double>& t = candidate.triangles[triangle];
-    if (by_one_grid && !has_corner_between_places(t, conventions))
+    if (by_one_grid && !has_corner_between_places(t, conventions, Places::derived))
       return edges_near(window_corners(t, true), p, of_steps(t, conventions));
     return edges_near(window_corners(t, false), p, moved(t, conventions) + (by_both ? kOfExact : 0));
   };
@@ -171,10 +180,10 @@ Measurement compare_covered_except_edges(const Records<double>& candidate, const
 }
 
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions) {
+                                    const Conventions& conventions, Places places) {
   return covered_except_edges_of(
       candidate, reference, conventions, glm::dvec2(0.5),
-      [&](const WindowTriangle<double>& t) { return has_corner_between_places(t, conventions); });
+      [&](const WindowTriangle<double>& t) { return has_corner_between_places(t, conventions, places); });
 }
 
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal) {

@@ -74,10 +74,13 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// the pixel's corner of smallest coordinates].
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
                                          const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5));
+/// Whether the candidate may have snapped a corner to several places of its grid. Rounded to the nearest, a corner lies
+/// within 4 u of the middle between two; rounded down or up, within kOfFixedPoint of a place, and `places` are derived.
+bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, Places places);
 /// compare_covered() for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Fragments at
-/// edges are ambiguous only in triangles with a corner within 4 u of the middle between two grid positions.
+/// edges are ambiguous only in triangles that has_corner_between_places().
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions);
+                                    const Conventions& conventions, Places places = Places::given);
 /// Planes count and id_sum (capture.h) of fragments whose `triangle` is an index into `triangles`.
 struct FragmentSums {
   Plane<std::uint32_t> count;

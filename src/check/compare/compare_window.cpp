@@ -143,7 +143,7 @@ class RunComparison {
                    at(number, "inv_w"), v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
         const double place = (v.p_win[c] - 0.5) * kSubpixel, own = snapped(conventions_, place);
-        const bool may_be = area_ == FacingArea::either && is_as_near(place, own, v.snapped[c]);
+        const bool may_be = area_ == FacingArea::either && may_be_snapped(place, own, v.snapped[c]);
         meter_.value(may_be ? 0 : difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
       }
       const Vec4<double> allowance = colors_ * u * glm::max(glm::abs(colors[k]), Vec4<double>(1));
@@ -153,11 +153,14 @@ class RunComparison {
     meter_.value(difference(a.width, b.width), 0, at(number, "width"), a.width, b.width);
   }
 
-  // Whether `other` is the second place of the grid that is nearest to `place`, half way between two. No specification
-  // says which is taken; exact takes the even one.
-  bool is_as_near(double place, double own, double other) const {
-    const bool is_nearest = conventions_.subpixel_rounding == Conventions::Rounding::nearest;
-    if (!is_nearest || conventions_.subpixel_bits > 8) return false;
+  // Whether `other` is a place of the grid that a stranger may give to `place`, beside `own`. To the nearest, it is the
+  // second of two that are equally near: no specification says which is taken; exact takes the even one.
+  bool may_be_snapped(double place, double own, double other) const {
+    if (conventions_.subpixel_bits > 8) return false;
+    if (conventions_.subpixel_rounding != Conventions::Rounding::nearest) {
+      const auto [least, most] = snapped_range(conventions_, place);
+      return other == least || other == most;
+    }
     const double step = std::exp2(8 - conventions_.subpixel_bits);
     return 2 * std::abs(place - own) == step && other == 2 * place - own;
   }

@@ -24,12 +24,13 @@ struct Spot {
   Vec2<double> middle, reach;
 };
 
-// Positions on the grid within the error of p_win [its steps].
+// Positions on the grid within the error of p_win [its steps], displaced by kOfFixedPoint before roundings down and up.
 Spot snapped_spot(const WindowCorner& c, const Conventions& grid) {
+  const bool is_to_nearest = grid.subpixel_rounding == Conventions::Rounding::nearest;
   Spot out{};
   for (int k = 0; k < 2; ++k) {
-    const double at = c.vertex.p_win[k], error = c.error[k], least = on_grid(grid, at - error),
-                 most = on_grid(grid, at + error);
+    const double at = c.vertex.p_win[k], error = c.error[k] + (is_to_nearest ? 0 : kOfFixedPoint),
+                 least = on_grid(grid, at - error), most = on_grid(grid, at + error);
     out.middle[k] = (least + most) / 2;
     out.reach[k] = (most - least) / 2;
   }

@@ -299,8 +299,7 @@ bool knows_ties(const Scene& scene, const Conventions& c) {
   using enum C::TieRule;
   const bool is_of_sides =
       c.tie_rule == left_bottom || c.tie_rule == left_top || c.tie_rule == right_bottom || c.tie_rule == right_top;
-  const bool is_to_nearest = c.subpixel_rounding == C::Rounding::nearest;
-  return is_of_sides && settles_ties(c) && is_to_nearest && c.subpixel_bits <= 8 && !scene.frame.pass.sample;
+  return is_of_sides && settles_ties(c) && c.subpixel_bits <= 8 && !scene.frame.pass.sample;
 }
 
 Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, const Capture& in,

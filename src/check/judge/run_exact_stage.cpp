@@ -164,7 +164,7 @@ void compare_coverage_stage(const SceneJudgement& c, const Capture& made, const 
   const Stage stage = Stage::coverage;
   const bool are_counted = are_sums_of(mine, c.candidate.planes);
   if (c.foreign && are_counted && knows_ties(c.scene, c.conventions))
-    return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions));
+    return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions, c.candidate.places));
   if (covers_otherwise(c) && are_counted) {
     const glm::dvec2 sample = 0.5 + glm::dvec2(sample_offset(c.scene.frame)) / double{kSubpixel};
     return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample));

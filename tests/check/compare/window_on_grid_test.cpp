@@ -40,6 +40,31 @@ TEST_F(Window, TrianglesHaveAnAreaOnTheDeclaredGrid) {
   }
 }
 
+// Rounded down at once, the triangle has no area. Rounded to 2^-11 pixel before, it may have one where its highest
+// corner lies just below a place of the grid: then its colours count.
+TEST_F(Window, AStrangersTriangleMayHaveAnAreaByRoundingTwice) {
+  Conventions grid;
+  grid.subpixel_bits = 4;
+  grid.subpixel_rounding = Conventions::Rounding::down;
+  for (const auto& [steps, may_have_area] : {std::pair(15.97, true), {15.9, false}}) {
+    const double low = 50.5 + 0.25 / 256, high = 50.5 + steps / 256;
+    records.triangles.back() = triangle_of({{{1, low, 0.25}, {90, low, 0.5}, {45, high, 0.75}}}, {1, 1, 1}, 3);
+    const auto& t = records.triangles.back();
+    records.polygons.polygons.pop_back();
+    records.polygons.vertices.resize(records.polygons.vertices.size() - 3);
+    add_polygon(records, 3, {t.v[2], t.v[0], t.v[1]});
+    const Records<double> exact = on_grid(records, grid, false);
+    Records<double> mine = on_grid(records, grid, true);
+    for (WindowVertex<double>& v : mine.triangles.back().v) v.snapped.y += v.p_win.y == high && may_have_area ? 16 : 0;
+    const auto passes_now = [&] {
+      return passes(compare_window(scene, mine, exact, kFactor, grid, 0, FacingArea::either));
+    };
+    EXPECT_TRUE(passes_now()) << steps;
+    mine.triangles.back().v[0].color.r += 0.125;
+    EXPECT_EQ(passes_now(), !may_have_area) << steps;
+  }
+}
+
 // The last triangle is there or not by rounding on a grid of 1/256 pixel, and has no area on the others.
 TEST_F(Window, ATriangleThatMayHaveNoAreaMayBeThereOrNot) {
   Conventions grid;
@@ -66,6 +91,31 @@ TEST_F(Window, AStrangersSecondNearestPlaceIsOnItsGrid) {
   EXPECT_FALSE(passes_at(3, 16));
   EXPECT_TRUE(passes_at(8, 0));
   EXPECT_TRUE(passes_at(8, 16));
+}
+
+// Fixed point of 11 bits, before the rounding down or up, may carry a position to a place of the grid or across it.
+TEST_F(Window, AStrangersPlaceMayBeRoundedOnTheWayToItsGrid) {
+  Conventions grid;
+  grid.subpixel_bits = 4;  // places 16/256 pixel apart; 2^-12 pixel is 1/16 of 1/256
+  const auto passes_at = [&](double place, int snapped, FacingArea area = FacingArea::either) {
+    Records<double> a = on_grid(records, grid, true);
+    a.triangles[0].v[0].p_win.x = 10.5 + place / 256;
+    a.triangles[0].v[0].snapped.x = 10 * 256 + snapped;
+    return passes(compare_window(scene, a, a, kFactor, grid, 0, area));
+  };
+  grid.subpixel_rounding = Conventions::Rounding::down;
+  EXPECT_TRUE(passes_at(15.95, 0));
+  EXPECT_TRUE(passes_at(15.95, 16)) << "1/20 below";
+  EXPECT_FALSE(passes_at(15.9, 16)) << "1/10 below";
+  EXPECT_FALSE(passes_at(15.95, 32));
+  EXPECT_FALSE(passes_at(15.95, 8)) << "off the grid";
+  EXPECT_FALSE(passes_at(15.95, 16, FacingArea::snapped)) << "ours rounds once";
+  EXPECT_TRUE(passes_at(16.05, 0));
+  EXPECT_FALSE(passes_at(16.1, 0));
+  grid.subpixel_rounding = Conventions::Rounding::up;
+  EXPECT_TRUE(passes_at(16.05, 16));
+  EXPECT_TRUE(passes_at(16.05, 32));
+  EXPECT_FALSE(passes_at(16.1, 16));
 }
 
 // Corners in one place: the colours tell where the triangle begins.

@@ -165,6 +165,28 @@ TEST_F(ByConventions, AWrongRuleIsFound) {
   EXPECT_EQ(compared().ambiguous, 6u);
 }
 
+// Corners on lines of a grid that is rounded down: places that the renderer hands out settle the rule, others do not.
+TEST_F(ByConventions, AWrongRuleIsFoundOnGridsThatAreRoundedDown) {
+  add_square();
+  C c = by_rule(C::TieRule::left_top);
+  c.subpixel_bits = 4;
+  c.subpixel_rounding = C::Rounding::down;
+  EXPECT_TRUE(knows_ties(scene, c));
+  const auto compared = [&](C::TieRule rule, Places places) {
+    Capture in = candidate;
+    in.records.covered = covered_by(rule).records.covered;
+    const Capture made = run_by_conventions(*exact, scene, Stage::coverage, in, c);
+    return compare_covered_by_rule(in.records, made.records, c, places);
+  };
+  EXPECT_EQ(compared(C::TieRule::left_top, Places::given).differing, 0u);
+  EXPECT_EQ(compared(C::TieRule::left_top, Places::given).ambiguous, 0u);
+  EXPECT_EQ(compared(C::TieRule::left_bottom, Places::given).differing, 6u);
+  EXPECT_EQ(compared(C::TieRule::left_bottom, Places::derived).differing, 0u);
+  EXPECT_EQ(compared(C::TieRule::left_bottom, Places::derived).ambiguous, 6u);
+  c.rows = C::Rows::from_top;
+  EXPECT_FALSE(knows_ties(scene, c)) << "the rounding is the rows' own";
+}
+
 // A corner that lies 0.4 steps to the right of its place on the grid: depth and attributes go by either.
 TEST_F(ByConventions, DeclaredCornersAreInterpolatedBetween) {
   for (const int bits : {4, 8, 10}) {
