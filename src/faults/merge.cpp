@@ -108,21 +108,37 @@ Color<float> premultiplied_again(const Blend& state, const Color<float>& source,
   return pipeline::blend<float>(state, {source.r * a, source.g * a, source.b * a, a}, stored, scale);
 }
 
+// Blended colour before it is clamped and rounded to a code.
+Color<float> unrounded_blend(const Blend& state, const Color<float>& source, const Color<float>& stored, float scale) {
+  const auto clamped = [](float v) { return pipeline::clamp01(v); };
+  return pipeline::blend<float>(state, {clamped(source.r), clamped(source.g), clamped(source.b), clamped(source.a)},
+                                {stored.r / scale, stored.g / scale, stored.b / scale, stored.a / scale}, 0.0f);
+}
+
 // (s * a + d * (255 - a)) >> 8.
 Color<float> shifted_for_divided(const Blend& state, const Color<float>& source, const Color<float>& stored,
                                  float scale) {
   const Color<float> right = pipeline::blend<float>(state, source, stored, scale);
   if (scale == 0.0f) return right;
-  const auto clamped = [](float v) { return pipeline::clamp01(v); };
-  const Color<float> sum =
-      pipeline::blend<float>(state, {clamped(source.r), clamped(source.g), clamped(source.b), clamped(source.a)},
-                             {stored.r / scale, stored.g / scale, stored.b / scale, stored.a / scale}, 0.0f);
+  const Color<float> sum = unrounded_blend(state, source, stored, scale);
   const auto code = [&](const BlendTerm& term, float v, float as_is) {
     if (term.equation == BlendEquation::min || term.equation == BlendEquation::max) return as_is;
     return std::floor(pipeline::clamp01(v) * scale * scale / (scale + 1));
   };
   return {code(state.rgb, sum.r, right.r), code(state.rgb, sum.g, right.g), code(state.rgb, sum.b, right.b),
           code(state.alpha, sum.a, right.a)};
+}
+
+// Sums in integers of the format's bits, which are not clamped: 256 is 0.
+Color<float> wrapped_sum(const Blend& state, const Color<float>& source, const Color<float>& stored, float scale) {
+  const Color<float> right = pipeline::blend<float>(state, source, stored, scale);
+  if (scale == 0.0f) return right;
+  const Color<float> sum = unrounded_blend(state, source, stored, scale);
+  const auto code = [&](float v, float as_is) {
+    const float whole = std::floor(v * scale + 0.5f);
+    return whole > scale ? std::fmod(whole, scale + 1) : as_is;
+  };
+  return {code(sum.r, right.r), code(sum.g, right.g), code(sum.b, right.b), code(sum.a, right.a)};
 }
 
 Color<float> sides_of_logic_op_swapped(LogicOp op, const Color<float>& source, const Color<float>& stored,
@@ -220,6 +236,8 @@ constexpr std::array kMerge = {
           put<&Stages::blend, premultiplied_again>, "OpenRA/TiberianDawnHD#28"},
     Fault{"merge.shifted_for_divided", "blending divides by 256, not 255, and truncates", Stage::merge,
           put<&Stages::blend, shifted_for_divided>, "scummvm/scummvm#985"},
+    Fault{"merge.sum_wraps", "blended sums beyond the largest code wrap to small ones", Stage::merge,
+          put<&Stages::blend, wrapped_sum>},
     Fault{"merge.logic_op_sides", "a logic op turns the wrong one over: s & ~d for ~s & d", Stage::merge,
           put<&Stages::logic, sides_of_logic_op_swapped>},
     Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge,

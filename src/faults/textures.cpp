@@ -53,6 +53,12 @@ FilteredTexel<float> truncated_towards_zero(const TextureSetup& t, const TexCoor
   return {pipeline::sample<float>(t, {next(at.s, t.width), next(at.t, t.height)}, right.lod), right.lod};
 }
 
+// Mirrored repeat that begins with the mirror image.
+FilteredTexel<float> mirrored_first(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  const auto turned = [](Wrap wrap, float v) { return wrap == Wrap::mirrored_repeat ? v + 1 : v; };
+  return pipeline::texture<float>(t, {turned(t.sampler.wrap_s, at.s), turned(t.sampler.wrap_t, at.t)}, g);
+}
+
 // Stage texture under a sampler that `change` altered.
 template <auto change>
 FilteredTexel<float> texture_under(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
@@ -66,6 +72,13 @@ void wrap_otherwise(TextureSetup& t, Wrap from, Wrap to) {
 }
 constexpr auto kClampForRepeat = [](TextureSetup& t) { wrap_otherwise(t, Wrap::repeat, Wrap::clamp_to_edge); };
 constexpr auto kEdgeForBorder = [](TextureSetup& t) { wrap_otherwise(t, Wrap::clamp_to_border, Wrap::clamp_to_edge); };
+// Repeat of coordinates alone: texels beyond an edge are those of that edge, not of the opposite one.
+FilteredTexel<float> seam_clamped(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  TextureSetup wrong = t;
+  kClampForRepeat(wrong);
+  const auto repeated = [](Wrap wrap, float v) { return wrap == Wrap::repeat ? v - std::floor(v) : v; };
+  return pipeline::texture<float>(wrong, {repeated(t.sampler.wrap_s, at.s), repeated(t.sampler.wrap_t, at.t)}, g);
+}
 constexpr auto kNoBias = [](TextureSetup& t) { t.sampler.lod_bias = 0; };
 constexpr auto kAllLevels = [](TextureSetup& t) { t.last = static_cast<int>(t.texture->levels.size()) - 1; };
 constexpr auto kMagnifiedAlways = [](TextureSetup& t) {
@@ -161,6 +174,14 @@ pipeline::Shaded texel_alpha_ignored(const pipeline::Surface& surface, bool fron
   return {pipeline::shade<float>(surface, front, opaque)};
 }
 
+pipeline::Shaded decal_turned_round(const pipeline::Surface& surface, bool front,
+                                    const TexturedAttributes& attributes) {
+  TexturedAttributes turned = attributes;
+  const bool is_decal = surface.draw->texture && surface.draw->texture->environment == TextureEnvironment::decal;
+  if (is_decal) turned.texel.color.a = 1 - turned.texel.color.a;
+  return {pipeline::shade<float>(surface, front, turned)};
+}
+
 constexpr auto kNoFog = [](Draw& draw) { draw.fog.reset(); };
 
 pipeline::Shaded fogged_alpha(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
@@ -210,6 +231,10 @@ constexpr std::array kTextures = {
           put<&Stages::texture, negative_mirrored>, "dolphin-emu/dolphin#9921"},
     Fault{"texture.truncated_towards_zero", "of negative coordinates the next texel is taken: (int) u for floor(u)",
           Stage::texture, put<&Stages::texture, truncated_towards_zero>},
+    Fault{"texture.mirrored_first", "textures that are mirrored every other time begin with the mirror image",
+          Stage::texture, put<&Stages::texture, mirrored_first>},
+    Fault{"texture.seam_clamped", "filters do not reach across the seam of a texture that is repeated", Stage::texture,
+          put<&Stages::texture, seam_clamped>},
     Fault{"texture.edge_for_border", "a texture's edge is drawn out where its border should be", Stage::texture,
           put<&Stages::texture, texture_under<kEdgeForBorder>>, "xemu-project/xemu#1005"},
     Fault{"texture.bias_left_out", "the texture's level-of-detail bias is not added", Stage::texture,
@@ -234,6 +259,8 @@ constexpr std::array kTextures = {
           put<&Stages::shade, shaded_under<kModulateForReplace>>},
     Fault{"shade.replace_for_decal", "a decal covers where its alpha should let through", Stage::shade,
           put<&Stages::shade, shaded_under<kReplaceForDecal>>},
+    Fault{"shade.decal_turned_round", "a decal covers where its alpha is 0, and lets through where it is 1",
+          Stage::shade, put<&Stages::shade, decal_turned_round>},
     Fault{"shade.no_environment_color", "the texture environment's colour is black", Stage::shade,
           put<&Stages::shade, shaded_under<kNoEnvironmentColor>>},
     Fault{"shade.texel_alpha_ignored", "texels' alpha is taken for 1", Stage::shade,

@@ -101,11 +101,18 @@ Apart FramesApart::from(const ColorAndDepth& frame) const {
     for (std::size_t look = 0; look < kLooks; ++look) {
       const Eye& eye = kEyes[look];
       const Counted counted = counted_[i][look];
-      const bool is_apart = there.is_color_beyond(eye) || (counted == whole && there.is_depth_beyond(eye));
+      // A legal depth is none of a fault that moves depths elsewhere.
+      const bool is_moved =
+          counted == whole || (counted == by_color && is_depth_beyond_ours(frame, i, static_cast<Look>(look)));
+      const bool is_apart = there.is_color_beyond(eye) || (is_moved && there.is_depth_beyond(eye));
       if (counted != passed_over && is_apart) ++out[look];
     }
   }
   return out;
+}
+
+bool FramesApart::is_depth_beyond_ours(const ColorAndDepth& frame, std::size_t i, Look look) const {
+  return distance(format_, ours_, frame, i).is_depth_beyond(kEyes[look]);
 }
 
 Apart FramesApart::against(const ColorAndDepth& frame) const {

@@ -59,6 +59,9 @@ class FramesApart {
   Apart against(const ColorAndDepth& frame) const;
 
  private:
+  /// Whether the frame's depth at pixel i differs from ours.
+  bool is_depth_beyond_ours(const ColorAndDepth& frame, std::size_t i, Look look) const;
+
   DepthFormat format_;
   const GivenFrame& given_;
   const ColorAndDepth& ours_;

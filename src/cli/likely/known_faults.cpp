@@ -157,21 +157,22 @@ void add_scanlines(std::vector<KnownFault>& out) {
       {"depth.at_left_side", "attributes.at_left_side"});
 }
 
+KnownFault alpha_not_written(const FrameFormat& frame) {
+  const float cleared = frame.clear_color.a;
+  return {.stage = "merge",
+          .name = "merge.alpha_not_written",
+          .says = "alpha is as it was cleared",
+          .of_frame = of_pixels([cleared](glm::vec4& color, double*) { color.a = cleared; })};
+}
+
 // Faults that change the finished frame, or draw a changed scene.
-std::vector<KnownFault> of_pictures(const FrameFormat& frame, bool has_alpha) {
+std::vector<KnownFault> of_pictures(const FrameFormat& frame) {
   std::vector<KnownFault> out;
   add_files(frame.width == frame.height, out);
   add_encodings(out);
   add_culls(out);
   add_neighbours(frame, out);
   add_scanlines(out);
-  if (has_alpha) {
-    const float cleared = frame.clear_color.a;
-    out.push_back({.stage = "merge",
-                   .name = "merge.alpha_not_written",
-                   .says = "alpha is as it was cleared",
-                   .of_frame = of_pixels([cleared](glm::vec4& color, double*) { color.a = cleared; })});
-  }
   out.push_back({.stage = "visibility",
                  .name = "visibility.farthest_kept",
                  .says = "the depth test is turned round, and the depth cleared to the other end",
@@ -207,7 +208,8 @@ bool is_of(const StageSet& stages, const KnownFault& f) {
 
 std::vector<KnownFault> picture_faults() {
   const FrameFormat square;
-  std::vector<KnownFault> all = of_pictures(square, true), out;
+  std::vector<KnownFault> all = of_pictures(square), out;
+  all.push_back(alpha_not_written(square));
   std::ranges::move(misread_states(), std::back_inserter(all));
   for (KnownFault& fault : all) {
     const auto same = std::ranges::find(out, fault.name, &KnownFault::name);
@@ -221,7 +223,7 @@ std::vector<KnownFault> picture_faults() {
 }
 
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
-  std::vector<KnownFault> out = of_pictures(scene.frame, given.has_alpha);
+  std::vector<KnownFault> out = of_pictures(scene.frame);
   std::ranges::move(misread_states(scene), std::back_inserter(out));
   for (const FaultInfo& fault : fault_infos()) {
     if (is_declared(fault.name, given.conventions)) continue;
@@ -229,6 +231,7 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
     out.push_back(
         {.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .of_stages = {name}});
   }
+  if (given.has_alpha) out.push_back(alpha_not_written(scene.frame));  // of equals, whoever alters alpha comes first
   std::erase_if(
       out, [&](const KnownFault& f) { return is_of(given.right, f) || is_contradicted(f.name, given.conventions); });
   return out;

@@ -73,5 +73,22 @@ TEST(FramesApart, PassesOverLegalPixelsThatDifferFromOurs) {
   EXPECT_THAT(legal.against(ours), ElementsAre(0, 0, 0, 0, 0, 0));
 }
 
+// A legal depth that differs from ours: the pixel counts by its colour, but for a frame that moves the depth elsewhere.
+TEST(FramesApart, CountsPixelsOfLegalDepthsByTheirColor) {
+  const GivenFrame ours = grey();
+  GivenFrame given = pixel({1, 1, 1, 0.5f}, 0.5 + 3 * kStep);
+  const auto apart_from = [&](const GivenFrame& frame) {
+    return FramesApart(DepthFormat::z16, given, ours).from(frame);
+  };
+  const GivenFrame white = pixel({1, 1, 1, 0.5f}, 0.5), far_white = pixel({1, 1, 1, 0.5f}, 0.9);
+  EXPECT_THAT(apart_from(white), ElementsAre(1, 1, 0, 1, 0, 1)) << "the depth is not known to be legal";
+  given.is_legal_depth = {1, 1, std::uint8_t{1}};
+  EXPECT_THAT(apart_from(white), ElementsAre(0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(apart_from(grey()), ElementsAre(1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(apart_from(far_white), ElementsAre(1, 1, 0, 1, 0, 1));
+  given.depth = {1, 1, 0.9};
+  EXPECT_THAT(apart_from(far_white), ElementsAre(0, 0, 0, 0, 0, 0)) << "there, the depth is";
+}
+
 }  // namespace
 }  // namespace plumbline::cli
