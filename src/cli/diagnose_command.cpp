@@ -122,8 +122,8 @@ bool holds(const check::Diagnosis& diagnosis) {
 }
 
 std::string likely_line(const Lookalikes& found) {
-  const std::string ties =
-      found.ties.empty() ? "" : fmt::format("  or {}: the frame is the same\n", fmt::join(found.ties, ", "));
+  const char* why = found.by_nearness ? "its frame is as near" : "the frame is the same";
+  const std::string ties = found.ties.empty() ? "" : fmt::format("  or {}: {}\n", fmt::join(found.ties, ", "), why);
   return fmt::format("likely stage{}: {}\n{}", found.together ? "s" : "", found.likely, ties);
 }
 

@@ -9,16 +9,18 @@ namespace plumbline::cli {
 namespace {
 
 // Thresholds of a Look: colour [codes of 8 bits]; depth [steps of the depth format], but at least float_depth [window
-// z], the error of depths in float; whether alpha counts.
+// z], the error of depths in float; whether alpha counts; share of the distance from ours that is allowed.
 struct Eye {
   float codes;
   double steps, float_depth;
   bool by_alpha = false;
+  float share = 0;
 };
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
 constexpr std::array<Eye, kLooks> kEyes = {{{1.5f, 1.5, 0x1p-20, true},
                                             {1.5f, 1.5, 0x1p-20},
                                             {1.5f, kUnseen, 0},
+                                            {1.5f, kUnseen, 0, false, 0.25f},
                                             {kUnseen, 1.5, 0x1p-20},
                                             {0.5f, kUnseen, 0},
                                             {kUnseen, 0.25, 0}}};
@@ -37,8 +39,8 @@ struct Distance {
   double depth, step;      // window z; the depth format's step there
   bool has_depth = false;  // both frames have depths
 
-  bool is_color_beyond(const Eye& eye) const {
-    const float most = eye.codes / 255;
+  bool is_color_beyond(const Eye& eye, float rgb_from_ours = 0) const {
+    const float most = std::max(eye.codes / 255, eye.share * rgb_from_ours);
     return eye.codes < kUnseen && (!(rgb <= most) || (eye.by_alpha && !(alpha <= most)));
   }
   bool is_depth_beyond(const Eye& eye) const {
@@ -80,6 +82,7 @@ FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const Colo
   };
   for (std::size_t i = 0; i < given.color.size(); ++i) {
     const Distance from_ours = distance(format, given, ours, i);
+    rgb_from_ours_.push_back(from_ours.rgb);
     for (std::size_t look = 0; look < kLooks; ++look) {
       const Eye& eye = kEyes[look];
       const Plane<std::uint8_t>& legal = is_of_color(static_cast<Look>(look)) ? given.is_legal_color : given.is_legal;
@@ -104,7 +107,7 @@ Apart FramesApart::from(const ColorAndDepth& frame) const {
       // A legal depth is none of a fault that moves depths elsewhere.
       const bool is_moved =
           counted == whole || (counted == by_color && is_depth_beyond_ours(frame, i, static_cast<Look>(look)));
-      const bool is_apart = there.is_color_beyond(eye) || (is_moved && there.is_depth_beyond(eye));
+      const bool is_apart = there.is_color_beyond(eye, rgb_from_ours_[i]) || (is_moved && there.is_depth_beyond(eye));
       if (counted != passed_over && is_apart) ++out[look];
     }
   }

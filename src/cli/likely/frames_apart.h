@@ -34,11 +34,12 @@ struct GivenFrame : ColorAndDepth {
 };
 
 /// Threshold of a difference. Coarse: beyond 1.5 codes of 8 bits or 1.5 steps of depth, with alpha or without, or by
-/// colour alone, whatever the depths, or by depth alone. Fine: beyond half a code, or a quarter of a step, which only
-/// truncation makes.
-enum Look { kCoarseByAlpha, kCoarse, kCoarseColor, kCoarseDepth, kFineColor, kFineDepth };
-constexpr std::size_t kLooks = 6;
-constexpr bool is_of_color(Look look) { return look == kCoarseColor || look == kFineColor; }
+/// colour alone, whatever the depths, or by depth alone. Nearer: by colour alone, where the frame is not four times as
+/// near as ours: the renderer's approximations, as of levels of detail, count little beside a mistake. Fine: beyond half
+/// a code, or a quarter of a step, which only truncation makes.
+enum Look { kCoarseByAlpha, kCoarse, kCoarseColor, kNearerColor, kCoarseDepth, kFineColor, kFineDepth };
+constexpr std::size_t kLooks = 7;
+constexpr bool is_of_color(Look look) { return look == kCoarseColor || look == kNearerColor || look == kFineColor; }
 constexpr bool is_fine(Look look) { return look >= kFineColor; }
 /// Number of pixels that differ, by Look.
 using Apart = std::array<std::size_t, kLooks>;
@@ -67,6 +68,7 @@ class FramesApart {
   const ColorAndDepth& ours_;
   enum Counted : std::uint8_t { whole, by_color, passed_over };
   std::vector<std::array<Counted, kLooks>> counted_;  // of each pixel
+  std::vector<float> rgb_from_ours_;                  // of each pixel: its distance in colour
 };
 
 }  // namespace plumbline::cli

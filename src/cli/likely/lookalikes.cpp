@@ -121,7 +121,7 @@ const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, cons
   const auto found = std::ranges::find_if(all, counts);
   if (found == all.end() || !explains(*found)) return nullptr;
   const Lookalike& nearest = *found;
-  out.whole = left(nearest) == 0;
+  out.whole = left(nearest) == 0 && look != kNearerColor;
   out.likely = text_of(nearest.faults);
   for (const Lookalike& l : all) {
     const std::string text = text_of(l.faults);
@@ -145,7 +145,9 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
     return out;
   }
   constexpr std::size_t kShown = 8;
-  out.text = "explains  pixels left  fault\n";
+  out.by_nearness = look == kNearerColor;
+  out.text = fmt::format("explains  pixels left  fault{}\n",
+                         out.by_nearness ? " whose frame is four times as near as plumbline's" : "");
   const bool is_whole = left(all.front()) == 0;  // then faults that leave pixels are not shown
   for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown))) {
     if (!is_whole || left(l) == 0) out.text += line_of(l, left(l), out.apart);
@@ -213,17 +215,17 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   const auto seen_by = [&](Look look, bool in_pairs) {
     std::vector<Lookalike> nearest = all;
     // Faults by colour alone must not put depths off that are right.
-    if (look == kCoarseColor)
+    if (look == kCoarseColor || look == kNearerColor)
       std::erase_if(nearest, [&](const Lookalike& l) { return 10 * l.apart[kCoarseDepth] > 11 * apart[kCoarseDepth]; });
     Lookalikes out = ranked(nearest, apart, look, given.wrong);
-    out.by_color = look == kCoarseColor;
+    out.by_color = look == kCoarseColor || look == kNearerColor;
     if (in_pairs && out.likely.empty() && !nearest.empty())
       seek_together(trial, all, nearest.front(), look, given.wrong, out);
     return out;
   };
   std::vector<Lookalikes> found;
   if (given.depth.empty()) apart[kCoarseColor] = 0;  // as kCoarse
-  for (const Look look : {kCoarseByAlpha, kCoarse, kCoarseColor}) {
+  for (const Look look : {kCoarseByAlpha, kCoarse, kCoarseColor, kNearerColor}) {
     if (apart[look] == 0) continue;
     found.push_back(seen_by(look, look == kCoarse));
     if (!found.back().likely.empty()) return found.back();

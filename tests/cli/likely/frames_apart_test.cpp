@@ -31,33 +31,33 @@ Apart apart(const GivenFrame& given, const GivenFrame& frame) {
 
 // By alpha, too; coarse; by colour, by depth; finely by colour, by depth.
 TEST(FramesApart, CountsByEachLook) {
-  EXPECT_THAT(apart(grey(), grey()), ElementsAre(0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(apart(grey(), grey()), ElementsAre(0, 0, 0, 0, 0, 0, 0));
   const auto shifted = [](float codes, float alpha_codes, double steps) {
     return pixel({0.5f, 0.5f + codes * kCode, 0.5f, 0.5f + alpha_codes * kCode}, 0.5 + steps * kStep);
   };
-  EXPECT_THAT(apart(grey(), shifted(1.6f, 0, 0)), ElementsAre(1, 1, 1, 0, 1, 0));
-  EXPECT_THAT(apart(grey(), shifted(1.4f, 0, 0)), ElementsAre(0, 0, 0, 0, 1, 0));
-  EXPECT_THAT(apart(grey(), shifted(0.4f, 0, 0)), ElementsAre(0, 0, 0, 0, 0, 0));
-  EXPECT_THAT(apart(grey(), shifted(0, 1.6f, 0)), ElementsAre(1, 0, 0, 0, 0, 0));
-  EXPECT_THAT(apart(grey(), shifted(0, 0, 1.6)), ElementsAre(1, 1, 0, 1, 0, 1));
-  EXPECT_THAT(apart(grey(), shifted(0, 0, 1.4)), ElementsAre(0, 0, 0, 0, 0, 1));
-  EXPECT_THAT(apart(grey(), shifted(0, 0, 0.2)), ElementsAre(0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(apart(grey(), shifted(1.6f, 0, 0)), ElementsAre(1, 1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(apart(grey(), shifted(1.4f, 0, 0)), ElementsAre(0, 0, 0, 0, 0, 1, 0));
+  EXPECT_THAT(apart(grey(), shifted(0.4f, 0, 0)), ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(apart(grey(), shifted(0, 1.6f, 0)), ElementsAre(1, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(apart(grey(), shifted(0, 0, 1.6)), ElementsAre(1, 1, 0, 0, 1, 0, 1));
+  EXPECT_THAT(apart(grey(), shifted(0, 0, 1.4)), ElementsAre(0, 0, 0, 0, 0, 0, 1));
+  EXPECT_THAT(apart(grey(), shifted(0, 0, 0.2)), ElementsAre(0, 0, 0, 0, 0, 0, 0));
 }
 
 TEST(FramesApart, CountsNoNumbersWhereALookSeesThem) {
   const GivenFrame no_red = pixel({kNaN, 0.5f, 0.5f, 0.5f}, 0.5), no_alpha = pixel({0.5f, 0.5f, 0.5f, kNaN}, 0.5),
                    no_depth = grey(kNaN);
-  EXPECT_THAT(apart(no_red, grey()), ElementsAre(1, 1, 1, 0, 1, 0));
-  EXPECT_THAT(apart(no_alpha, grey()), ElementsAre(1, 0, 0, 0, 0, 0));
-  EXPECT_THAT(apart(no_depth, grey()), ElementsAre(1, 1, 0, 1, 0, 1));
-  EXPECT_THAT(apart(grey(), no_depth), ElementsAre(1, 1, 0, 1, 0, 1));
-  EXPECT_THAT(apart(no_red, no_red), ElementsAre(1, 1, 1, 0, 1, 0)) << "of both, too";
+  EXPECT_THAT(apart(no_red, grey()), ElementsAre(1, 1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(apart(no_alpha, grey()), ElementsAre(1, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(apart(no_depth, grey()), ElementsAre(1, 1, 0, 0, 1, 0, 1));
+  EXPECT_THAT(apart(grey(), no_depth), ElementsAre(1, 1, 0, 0, 1, 0, 1));
+  EXPECT_THAT(apart(no_red, no_red), ElementsAre(1, 1, 1, 1, 0, 1, 0)) << "of both, too";
 }
 
 TEST(FramesApart, SeesNoDepthsWhereOneFrameHasNone) {
   GivenFrame without = grey();
   without.depth = {};
-  EXPECT_THAT(apart(without, grey(0.9)), ElementsAre(0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(apart(without, grey(0.9)), ElementsAre(0, 0, 0, 0, 0, 0, 0));
 }
 
 // A legal pixel that is ours to a look, and no other frame's, is counted; one that differs from ours contradicts
@@ -65,12 +65,12 @@ TEST(FramesApart, SeesNoDepthsWhereOneFrameHasNone) {
 TEST(FramesApart, PassesOverLegalPixelsThatDifferFromOurs) {
   const GivenFrame ours = grey(), white = pixel({1, 1, 1, 0.5f}, 0.5);
   GivenFrame given = pixel({0.2f, 0.2f, 0.2f, 0.5f}, 0.5);
-  EXPECT_THAT(FramesApart(DepthFormat::z16, given, ours).from(white), ElementsAre(1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(FramesApart(DepthFormat::z16, given, ours).from(white), ElementsAre(1, 1, 1, 1, 0, 1, 0));
   given.is_legal = given.is_legal_color = {1, 1, std::uint8_t{1}};
   const FramesApart legal(DepthFormat::z16, given, ours);
-  EXPECT_THAT(legal.from(white), ElementsAre(0, 0, 0, 0, 0, 0));
-  EXPECT_THAT(legal.against(white), ElementsAre(1, 1, 1, 0, 1, 0));
-  EXPECT_THAT(legal.against(ours), ElementsAre(0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(legal.from(white), ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(legal.against(white), ElementsAre(1, 1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(legal.against(ours), ElementsAre(0, 0, 0, 0, 0, 0, 0));
 }
 
 // A legal depth that differs from ours: the pixel counts by its colour, but for a frame that moves the depth elsewhere.
@@ -81,13 +81,13 @@ TEST(FramesApart, CountsPixelsOfLegalDepthsByTheirColor) {
     return FramesApart(DepthFormat::z16, given, ours).from(frame);
   };
   const GivenFrame white = pixel({1, 1, 1, 0.5f}, 0.5), far_white = pixel({1, 1, 1, 0.5f}, 0.9);
-  EXPECT_THAT(apart_from(white), ElementsAre(1, 1, 0, 1, 0, 1)) << "the depth is not known to be legal";
+  EXPECT_THAT(apart_from(white), ElementsAre(1, 1, 0, 0, 1, 0, 1)) << "the depth is not known to be legal";
   given.is_legal_depth = {1, 1, std::uint8_t{1}};
-  EXPECT_THAT(apart_from(white), ElementsAre(0, 0, 0, 0, 0, 0));
-  EXPECT_THAT(apart_from(grey()), ElementsAre(1, 1, 1, 0, 1, 0));
-  EXPECT_THAT(apart_from(far_white), ElementsAre(1, 1, 0, 1, 0, 1));
+  EXPECT_THAT(apart_from(white), ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(apart_from(grey()), ElementsAre(1, 1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(apart_from(far_white), ElementsAre(1, 1, 0, 0, 1, 0, 1));
   given.depth = {1, 1, 0.9};
-  EXPECT_THAT(apart_from(far_white), ElementsAre(0, 0, 0, 0, 0, 0)) << "there, the depth is";
+  EXPECT_THAT(apart_from(far_white), ElementsAre(0, 0, 0, 0, 0, 0, 0)) << "there, the depth is";
 }
 
 }  // namespace
