@@ -46,6 +46,8 @@ double error_near(const Projected& scene, const Triangle& t, std::span<const glm
   return out < 0 ? kInfinity : out;
 }
 
+glm::dvec2 frame_of(const Projected& scene) { return {scene.width, scene.height}; }
+
 // Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and, where the near and
 // the far plane cut, depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel].
 template <class Error>
@@ -56,7 +58,8 @@ double error_of_pieces(const Projected& scene, const Triangle& t, double slope, 
   const auto of_pieces = [&](const std::vector<glm::dvec2>& outline, double altitude, glm::dvec2 extent) {
     const double near = error_near(scene, t, outline, d, error);
     if (scene.depth_clamp) return near;
-    return std::min(near, depth_error_of_pieces(arithmetic, altitude, slope * (1 + 4 * t.reach / altitude), extent));
+    const double steeper = slope * (1 + 4 * t.reach / altitude);
+    return std::min(near, depth_error_of_pieces(arithmetic, altitude, steeper, extent, frame_of(scene)));
   };
   const double framed = of_pieces(t.outline, altitudes.framed, {scene.width, scene.height});
   if (t.guarded.extent == glm::dvec2(0)) return framed;
@@ -70,7 +73,7 @@ double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, c
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
   const glm::dvec2 p = glm::dvec2(d) + 0.5 * glm::dvec2(scene.width, scene.height);
   const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane));
-  const auto error = [&](const WindowCorners& corners) { return depth_error(arithmetic, corners, p); };
+  const auto error = [&](const WindowCorners& corners) { return depth_error(arithmetic, corners, p, frame_of(scene)); };
   const double out = t.cut ? error_of_pieces(scene, t, slope, d, altitudes, error) : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }
@@ -80,7 +83,9 @@ double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dve
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
   const glm::dvec2 p = glm::dvec2(d) + 0.5 * glm::dvec2(scene.width, scene.height);
-  const auto error = [&](const WindowCorners& corners) { return shares_error(arithmetic, corners, p); };
+  const auto error = [&](const WindowCorners& corners) {
+    return shares_error(arithmetic, corners, p, frame_of(scene));
+  };
   const double of_pieces = t.cut ? error_of_pieces(scene, t, slope, d, altitudes, error) : 0,
                out = std::isfinite(of_pieces) ? of_pieces : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;

@@ -182,9 +182,10 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
 
 // ---- depths
 
-// How far from code / (2^n - 1) doubles in [0,1] may be that were computed from the code, such as 1 - code' / (2^n -
-// 1): by 8 roundings, of 2^-53 each. Codes are 2^-24 apart or more.
-constexpr double kCodeRoundings = 0x1p-50;
+// How far from code / (2^n - 1) a depth in [0,1] may be that was computed from the code, such as 1 - code' / (2^n - 1):
+// by 8 roundings. In double these are of 2^-53. Codes of 16 bits may be computed in float, whose roundings are of 2^-24:
+// 8 of them are 1/32 of such a code.
+double code_roundings(double codes) { return codes < 0x1p20 ? 0x1p-21 : 0x1p-50; }
 
 // ---- order
 
@@ -275,7 +276,7 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   const double codes = depth_scale(format);
   for (double& z : capture.planes.depth.values()) {
     const double code = codes > 0 ? std::nearbyint(z * codes) / codes : z;
-    if (capture.depth_in_float || std::abs(z - code) <= kCodeRoundings) z = code;
+    if (capture.depth_in_float || std::abs(z - code) <= code_roundings(codes)) z = code;
     // A buffer of doubles holds the float, and more.
     if (format == DepthFormat::z32f && std::abs(z) <= static_cast<double>(std::numeric_limits<float>::max()))
       z = static_cast<double>(static_cast<float>(z));

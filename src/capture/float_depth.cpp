@@ -87,7 +87,7 @@ double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p) {
   return or_infinite(10 * (out + std::abs(z) * c_terms) / std::abs(edges.area));
 }
 
-double error_by_steps(const WindowCorners& corners, glm::dvec2 p) {
+double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame) {
   const Edges edges(corners);
   double slope = 0, most = 0;
   glm::dvec2 low(corners[0]), high(corners[0]);
@@ -97,26 +97,28 @@ double error_by_steps(const WindowCorners& corners, glm::dvec2 p) {
     low = glm::min(low, edges.at[i]);
     high = glm::max(high, edges.at[i]);
   }
-  const glm::dvec2 way = glm::max(glm::abs(p - low), glm::abs(high - p));  // from either side
+  const glm::dvec2 way = glm::min(glm::max(glm::abs(p - low), glm::abs(high - p)), frame);  // from either side
   const double of_edge = stepped_edge(way.y, std::max(std::abs(low.x), std::abs(high.x)));
   return or_infinite(most * sum_of(glm::ceil(way) + 2.0) + of_edge * std::abs(slope));
 }
 
-double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p) {
+double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
+                   glm::dvec2 frame) {
   using enum Conventions::DepthArithmetic;
   if (arithmetic == in_double) return 0;
   double out = std::max(error_by_edge_functions(corners, p), error_by_plane(corners, p));
-  if (arithmetic == in_float_stepped) out += error_by_steps(corners, p);
+  if (arithmetic == in_float_stepped) out += error_by_steps(corners, p, frame);
   if (arithmetic == in_float_from_origin) out = std::max(out, error_by_edge_equations(corners, p));
   return kU * (out + 1);
 }
 
-double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p) {
+double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
+                    glm::dvec2 frame) {
   double out = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     WindowCorners share = corners;
     for (std::size_t k = 0; k < 3; ++k) share[k].z = i == k ? 1 : 0;
-    out += depth_error(arithmetic, share, p);
+    out += depth_error(arithmetic, share, p, frame);
   }
   return out;
 }
@@ -130,8 +132,8 @@ double attribute_error(double shares, double most) {
 // are at most 1, their gradient g at most 2 / h. Products of differences are at most L D, those of positions at most 4
 // times the window's area. A plane's differences of depths are at most g L, so that its gradient is off by 3 sqrt(2) g
 // L / h or less (both components together), over a distance of at most D.
-double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope,
-                             glm::dvec2 window) {
+double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window,
+                             glm::dvec2 frame) {
   using enum Conventions::DepthArithmetic;
   if (arithmetic == in_double) return 0;
   if (!(altitude > 0)) return kInfinity;
@@ -140,8 +142,9 @@ double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double alt
   const double by_edges = 4 * (3 * 2 * thin + 2 * thin + 1),
                by_plane = 4 * (1 + 2 * rise + 3 * std::sqrt(2.0) * rise * thin),
                by_equations = 10 * 30 * window.x * window.y / (altitude * altitude);
-  const double of_edge = stepped_edge(window.y + 1, window.x) * rise / diagonal,
-               steps = arithmetic == in_float_stepped ? sum_of(window) + 6 + of_edge : 0,
+  const glm::dvec2 stepped = glm::min(window, frame);
+  const double of_edge = stepped_edge(stepped.y + 1, window.x) * rise / diagonal,
+               steps = arithmetic == in_float_stepped ? sum_of(stepped) + 6 + of_edge : 0,
                in_differences = std::max(by_edges, by_plane) + steps;
   return kU * ((arithmetic == in_float_from_origin ? std::max(in_differences, by_equations) : in_differences) + 1);
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include <glm/glm.hpp>
 
@@ -13,6 +14,9 @@
 namespace plumbline {
 
 using WindowCorners = std::array<glm::dvec3, 3>;
+
+/// Size of a frame that has no sides [pixels].
+inline constexpr glm::dvec2 kNoSides{std::numeric_limits<double>::infinity()};
 
 /// Error of sum z_i e_i / A at p [u of window z]. An edge function and the area are each the difference of two products
 /// of differences: 4 u of |first| + |second|. Quotient, product and sum: 4 u of |z_i e_i / A|. Beside a sliver's long
@@ -36,17 +40,20 @@ double edge_displacement(Conventions::DepthArithmetic arithmetic, double rows, d
 
 /// Error at p, besides a plane's, of z that is stepped there from a corner [u of window z]: along an edge from row to
 /// row, then from column to column, a sum each, of numbers of at most the largest |z_i|. The edge's x is stepped, too:
-/// edge_displacement() times |dz/dx|.
-double error_by_steps(const WindowCorners& corners, glm::dvec2 p);
+/// edge_displacement() times |dz/dx|. Rows and columns beyond a frame of that size are not stepped, but left out by a
+/// product (error_by_plane()).
+double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame);
 
 /// Error of a depth at p [window z], and u for its code: a product and a sum, half a unit in the last place of a number
 /// below 1 each. in_double: 0. in_float: the larger of the first two. in_float_stepped: that, and error_by_steps().
 /// in_float_from_origin: the largest of the first three.
-double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
+double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
+                   glm::dvec2 frame = kNoSides);
 
 /// Sum of the errors of the three window barycentrics at p: each barycentric is bounded as a depth that is 1 at one
 /// corner and 0 at the others.
-double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p);
+double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
+                    glm::dvec2 frame = kNoSides);
 
 /// Error of an attribute whose numerator and denominator are planes of their own. `most`: largest absolute value at the
 /// corners. `shares`: shares_error() times the corners' largest 1/w over the pixel's 1/w. Infinite if `shares` is 1 or
@@ -56,6 +63,7 @@ double attribute_error(double shares, double most);
 /// Bound of depth_error() over all triangles within a window [pixels] whose altitudes are at least `altitude` [pixels]
 /// and whose depth gradients are at most `slope` [window z per pixel]. A `slope` above 2 / altitude counts as 2 /
 /// altitude: no such triangle is steeper.
-double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window);
+double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window,
+                             glm::dvec2 frame = kNoSides);
 
 }  // namespace plumbline

@@ -161,7 +161,12 @@ TEST(CompleteRecords, TakeDepthsForThoseOfTheDeclaredFormat) {
     const double z = code / 65535.0;
     EXPECT_EQ(stored(Conventions::Depth::z16, 1 - (65535 - code) / 65535.0, false), z) << "off by roundings of double";
     EXPECT_EQ(stored(Conventions::Depth::z16, code * (1 / 65535.0), false), z);
-    EXPECT_NE(stored(Conventions::Depth::z16, z + 0x1p-48, false), z);
+    EXPECT_EQ(stored(Conventions::Depth::z16, static_cast<double>(static_cast<float>(z)), false), z) << "by float";
+    EXPECT_EQ(stored(Conventions::Depth::z16, (static_cast<float>(2 * z - 1) + 1.0) / 2, false), z);
+    EXPECT_NE(stored(Conventions::Depth::z16, z + 0x1p-20, false), z);
+    const double fine = (256 * code + 77) / 16777215.0;
+    EXPECT_EQ(stored(Conventions::Depth::as_asked, fine + 0x1p-51, false), fine);
+    EXPECT_NE(stored(Conventions::Depth::as_asked, fine + 0x1p-48, false), fine);
   }
   EXPECT_EQ(stored(Conventions::Depth::z16, static_cast<double>(0.1f), true), 6554.0 / 65535);
 }

@@ -196,6 +196,7 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
                           double factor, const Conventions& conventions, double from_origin) {
   const double middle = middle_of(conventions.depth_rounding);
   const OffsetErrors offsets(scene, conventions);
+  const glm::dvec2 frame(scene.frame.width, scene.frame.height);
   // Error of a stranger's depth in float [window z]: by the declared arithmetic; else, in formats that are float, by
   // planes from the window's origin.
   const auto float_error = [&](const WindowTriangle<double>& t, const Covered& c) {
@@ -204,7 +205,7 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
     const double by_plane = from_origin * u * (bounds_from_origin(t, c.x, c.y).depth + offsets.of(t));
     if (!is_declared || t.corners < 3) return by_plane;
     const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
-    return std::max(by_plane + u, depth_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}));
+    return std::max(by_plane + u, depth_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}, frame));
   };
   return each_fragment("depths", "step", candidate, candidate.depth.size(), reference.depth.size(),
                        [&](Meter& meter, std::size_t i) {
