@@ -65,6 +65,7 @@ void list_renderers() {
 }
 
 void list_faults() {
+  fmt::print("Put in by --fault:\n");
   for (const FaultInfo& fault : fault_infos()) {
     const std::string report = fault.report.empty() ? "" : fmt::format(" ({})", fault.report);
     fmt::print("{:<36} {:<10} {}{}\n", fault.name, fault.stage, fault.changes, report);

@@ -34,19 +34,19 @@ double x_not_advanced(glm::dvec2 lower, glm::dvec2 upper, int row) {
 }
 
 // Part that is left out: the row below the middle corner, or the one above it; the first or the last pixel of each
-// span.
-enum class Lost { none, below_middle, above_middle, first_pixels, last_pixels };
+// span. Or what is drawn, too: the pixel after each span.
+enum class Misdrawn { none, below_middle, above_middle, first_pixels, last_pixels, pixel_after };
 
-bool is_lost(Lost lost, const std::array<double, 3>& corners_y, int row) {
+bool is_lost(Misdrawn what, const std::array<double, 3>& corners_y, int row) {
   std::array<double, 3> y = corners_y;
   std::ranges::sort(y);
   const int middle = first_centre(y[1]);
-  if (lost == Lost::below_middle) return row == middle - 1 && y[0] < y[1];
-  return lost == Lost::above_middle && row == middle && y[1] < y[2];
+  if (what == Misdrawn::below_middle) return row == middle - 1 && y[0] < y[1];
+  return what == Misdrawn::above_middle && row == middle && y[1] < y[2];
 }
 
 // Triangle's pixels by spans, whose ends are x(lower, upper, row) on the edges: centres on the left end are in.
-template <auto x, Lost lost>
+template <auto x, Misdrawn what>
 PixelList by_spans(const Triangle& t, const PixelBounds& box) {
   if (t.corners != 3) return pipeline::covered_pixels(t, box);
   PixelList out;
@@ -61,9 +61,12 @@ PixelList by_spans(const Triangle& t, const PixelBounds& box) {
       const double at = x(lower, upper, row);
       span = span ? std::minmax({span->first, span->second, at}) : std::pair(at, at);
     }
-    if (!span || is_lost(lost, {y(0), y(1), y(2)}, row)) continue;
-    const int first = first_centre(span->first) + (lost == Lost::first_pixels ? 1 : 0),
-              end = first_centre(span->second) - (lost == Lost::last_pixels ? 1 : 0);
+    if (!span || is_lost(what, {y(0), y(1), y(2)}, row)) continue;
+    const int first = first_centre(span->first) + (what == Misdrawn::first_pixels ? 1 : 0),
+              more = what == Misdrawn::pixel_after   ? 1
+                     : what == Misdrawn::last_pixels ? -1
+                                                     : 0,
+              end = first_centre(span->second) + more;
     for (int column = std::max(first, box.x0); column < std::min(end, box.x1); ++column) out.emplace_back(column, row);
   }
   return out;
@@ -104,6 +107,12 @@ Pixels<float> span_not_advanced(const Setup& s, const Pixels<float>& p) {
   return start.edge < 3 ? moved(p, -ahead_of(start.x), 0) : p;
 }
 
+// Centre of the first pixel of the span.
+Pixels<float> first_of_span(const Setup& s, const Pixels<float>& p) {
+  const SpanStart start = span_start(s, p);
+  return start.edge < 3 ? moved(p, start.x + ahead_of(start.x) - p.x_win, 0) : p;
+}
+
 // Place whose values a pixel has where edges begin with those of their lower, or upper, corner.
 template <From from>
 Pixels<float> edge_not_advanced(const Setup& s, const Pixels<float>& p) {
@@ -129,28 +138,31 @@ template <auto place>
 constexpr auto kDepth = put<&Stages::depth, depth_at<place>>;
 template <auto place>
 constexpr auto kAttributes = put<&Stages::attributes, attributes_at<place>>;
-template <auto x, Lost lost>
-constexpr auto kCoverage = put<&Stages::coverage, by_spans<x, lost>>;
+template <auto x, Misdrawn what>
+constexpr auto kCoverage = put<&Stages::coverage, by_spans<x, what>>;
 
 constexpr std::array kScanline = {
     Fault{"coverage.edges_not_advanced", "an edge's x in its first row is that of its lower corner", Stage::coverage,
-          kCoverage<x_not_advanced<From::below>, Lost::none>},
+          kCoverage<x_not_advanced<From::below>, Misdrawn::none>},
     Fault{"coverage.edges_not_advanced_down", "an edge's x in its first row is that of its upper corner",
-          Stage::coverage, kCoverage<x_not_advanced<From::above>, Lost::none>},
+          Stage::coverage, kCoverage<x_not_advanced<From::above>, Misdrawn::none>},
     Fault{"coverage.row_below_middle_lost", "the last row below a triangle's middle corner is not drawn",
-          Stage::coverage, kCoverage<x_at_row, Lost::below_middle>},
+          Stage::coverage, kCoverage<x_at_row, Misdrawn::below_middle>},
     Fault{"coverage.row_above_middle_lost", "the first row above a triangle's middle corner is not drawn",
-          Stage::coverage, kCoverage<x_at_row, Lost::above_middle>},
+          Stage::coverage, kCoverage<x_at_row, Misdrawn::above_middle>},
     Fault{"coverage.first_of_spans_lost", "the first pixel of a triangle's row is not drawn", Stage::coverage,
-          kCoverage<x_at_row, Lost::first_pixels>},
+          kCoverage<x_at_row, Misdrawn::first_pixels>},
     Fault{"coverage.last_of_spans_lost", "the last pixel of a triangle's row is not drawn", Stage::coverage,
-          kCoverage<x_at_row, Lost::last_pixels>},
+          kCoverage<x_at_row, Misdrawn::last_pixels>},
+    Fault{"coverage.pixel_after_spans", "the pixel after a triangle's row is drawn, too", Stage::coverage,
+          kCoverage<x_at_row, Misdrawn::pixel_after>},
     Fault{"depth.edges_not_advanced", "a left edge's depth in its first row is that of its lower corner", Stage::depth,
           kDepth<edge_not_advanced<From::below>>},
     Fault{"depth.edges_not_advanced_down", "a left edge's depth in its first row is that of its upper corner",
           Stage::depth, kDepth<edge_not_advanced<From::above>>},
     Fault{"depth.spans_not_advanced", "a span's first pixel has the depth of the span's end", Stage::depth,
           kDepth<span_not_advanced>},
+    Fault{"depth.one_per_span", "a span has the depth of its first pixel", Stage::depth, kDepth<first_of_span>},
     Fault{"depth.at_left_side", "depths are those of the middle of pixels' left sides", Stage::depth,
           kDepth<at_left_side>},
     Fault{"attributes.edges_not_advanced", "a left edge's attributes in its first row are those of its lower corner",
@@ -160,6 +172,8 @@ constexpr std::array kScanline = {
           kAttributes<edge_not_advanced<From::above>>},
     Fault{"attributes.spans_not_advanced", "a span's first pixel has the attributes of the span's end",
           Stage::attributes, kAttributes<span_not_advanced>},
+    Fault{"attributes.one_per_span", "a span has the attributes of its first pixel", Stage::attributes,
+          kAttributes<first_of_span>},
     Fault{"attributes.at_left_side", "attributes are those of the middle of pixels' left sides", Stage::attributes,
           kAttributes<at_left_side>},
 };

@@ -43,6 +43,11 @@ FilteredTexel<float> negative_mirrored(const TextureSetup& t, const TexCoords<fl
   return pipeline::texture<float>(t, {repeated(t.sampler.wrap_s, at.s), repeated(t.sampler.wrap_t, at.t)}, g);
 }
 
+// Whether a filter without levels takes a linear mean at that level of detail.
+bool is_linear_at_base(const TextureSetup& t, float lod) {
+  return lod <= t.c ? t.sampler.mag == MagFilter::linear : t.sampler.min == MinFilter::linear;
+}
+
 // Nearest texel (int) u for floor(u), where u is below 0.
 FilteredTexel<float> truncated_towards_zero(const TextureSetup& t, const TexCoords<float>& at,
                                             const Gradients<float>& g) {
@@ -57,6 +62,18 @@ FilteredTexel<float> truncated_towards_zero(const TextureSetup& t, const TexCoor
 FilteredTexel<float> mirrored_first(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   const auto turned = [](Wrap wrap, float v) { return wrap == Wrap::mirrored_repeat ? v + 1 : v; };
   return pipeline::texture<float>(t, {turned(t.sampler.wrap_s, at.s), turned(t.sampler.wrap_t, at.t)}, g);
+}
+
+// Texels (int) u and (int) u + 1 of a linear filter for floor(u) and floor(u) + 1, where u is below 0, at the base
+// level.
+FilteredTexel<float> linear_truncated(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  const FilteredTexel<float> right = pipeline::texture<float>(t, at, g);
+  if (!is_linear_at_base(t, right.lod)) return right;
+  const auto next = [](float v, double texels) {
+    const double u = static_cast<double>(v) * texels - 0.5;
+    return u < 0 && u != std::floor(u) ? v + static_cast<float>(1 / texels) : v;
+  };
+  return {pipeline::sample<float>(t, {next(at.s, t.width), next(at.t, t.height)}, right.lod), right.lod};
 }
 
 // Stage texture under a sampler that `change` altered.
@@ -130,9 +147,7 @@ constexpr auto levels_floored = level_below<MinFilter::nearest_mipmap_nearest, M
 // A linear filter's weights along s and t exchanged, at the base level.
 FilteredTexel<float> weights_exchanged(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   const FilteredTexel<float> right = pipeline::texture<float>(t, at, g);
-  const bool magnified = right.lod <= t.c;
-  const bool linear = magnified ? t.sampler.mag == MagFilter::linear : t.sampler.min == MinFilter::linear;
-  if (!linear) return right;
+  if (!is_linear_at_base(t, right.lod)) return right;
   const double u = static_cast<double>(at.s) * t.width - 0.5, v = static_cast<double>(at.t) * t.height - 0.5;
   const double i = std::floor(u), j = std::floor(v);
   const auto s = static_cast<float>((i + (v - j) + 0.5) / t.width),
@@ -231,6 +246,9 @@ constexpr std::array kTextures = {
           put<&Stages::texture, negative_mirrored>, "dolphin-emu/dolphin#9921"},
     Fault{"texture.truncated_towards_zero", "of negative coordinates the next texel is taken: (int) u for floor(u)",
           Stage::texture, put<&Stages::texture, truncated_towards_zero>},
+    Fault{"texture.linear_truncated",
+          "of negative coordinates a linear filter takes the next texels: (int) u for floor(u)", Stage::texture,
+          put<&Stages::texture, linear_truncated>},
     Fault{"texture.mirrored_first", "textures that are mirrored every other time begin with the mirror image",
           Stage::texture, put<&Stages::texture, mirrored_first>},
     Fault{"texture.seam_clamped", "filters do not reach across the seam of a texture that is repeated", Stage::texture,

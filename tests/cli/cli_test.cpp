@@ -337,8 +337,7 @@ TEST_F(Cli, CheckRefusesAFaultThatNoneIsBeforeItPrints) {
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(run.text,
             "plumb: no fault 'coverage.inclusive_edge' to put in (did you mean \"coverage.inclusive_edges\"?): plumb "
-            "list faults shows "
-            "all\n");
+            "list faults shows those that --fault puts in first\n");
 }
 
 }  // namespace

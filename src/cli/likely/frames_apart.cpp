@@ -118,16 +118,21 @@ bool FramesApart::is_depth_beyond_ours(const ColorAndDepth& frame, std::size_t i
   return distance(format_, ours_, frame, i).is_depth_beyond(kEyes[look]);
 }
 
-Apart FramesApart::against(const ColorAndDepth& frame) const {
-  Apart out{};
+FramesApart::Legal FramesApart::legal(const ColorAndDepth& frame) const {
+  Legal out;
   for (std::size_t i = 0; i < given_.color.size(); ++i) {
     if (std::ranges::find(counted_[i], passed_over) == counted_[i].end()) continue;
     const Distance from_given = distance(format_, given_, frame, i), from_ours = distance(format_, ours_, frame, i);
     for (std::size_t look = 0; look < kLooks; ++look) {
+      if (counted_[i][look] != passed_over) continue;
       const auto is_beyond = [&](const Distance& d) {
         return d.is_color_beyond(kEyes[look]) || d.is_depth_beyond(kEyes[look]);
       };
-      if (counted_[i][look] == passed_over && is_beyond(from_given) && is_beyond(from_ours)) ++out[look];
+      if (!is_beyond(from_given)) {
+        ++out.alike[look];
+      } else if (is_beyond(from_ours)) {
+        ++out.against[look];
+      }
     }
   }
   return out;

@@ -56,8 +56,12 @@ class FramesApart {
   /// `given` and `ours` have to outlive it.
   FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours);
   Apart from(const ColorAndDepth& frame) const;
-  /// Counts the legal pixels that contradict a fault's frame: all three frames differ there.
-  Apart against(const ColorAndDepth& frame) const;
+  /// Legal pixels that differ from ours, by what they say of a fault's frame.
+  struct Legal {
+    Apart against{};  ///< the fault's frame differs from both: they contradict it
+    Apart alike{};    ///< the fault's frame does not differ from the given one: it draws them, too
+  };
+  Legal legal(const ColorAndDepth& frame) const;
 
  private:
   /// Whether the frame's depth at pixel i differs from ours.

@@ -189,6 +189,21 @@ bool is_declared(const std::string_view fault, const Conventions& conventions) {
          (fault == "depth.truncated" && conventions.depth_rounding == kDown);
 }
 
+Conventions truncating() {
+  Conventions out;
+  out.color_rounding = out.depth_rounding = Conventions::Rounding::down;
+  return out;
+}
+
+// Rounding to the nearest where the conventions declare `fault`, truncation.
+KnownFault not_as_declared(const FaultInfo& fault) {
+  const std::string stage(fault.stage);
+  return {.stage = stage,
+          .name = stage + ".to_nearest",
+          .says = "rounded to the nearest code, not down as the conventions declare: plumb learn",
+          .lifts = std::string(fault.name)};
+}
+
 // Whether conventions that are declared, and not open, show that all frames are without the fault.
 bool is_contradicted(const std::string_view fault, const Conventions& conventions) {
   const bool of_rows = fault == "file.rows_reversed" || fault == "window.y_flipped",
@@ -210,6 +225,9 @@ std::vector<KnownFault> picture_faults() {
   const FrameFormat square;
   std::vector<KnownFault> all = of_pictures(square), out;
   all.push_back(alpha_not_written(square));
+  for (const FaultInfo& fault : fault_infos()) {
+    if (is_declared(fault.name, truncating())) all.push_back(not_as_declared(fault));
+  }
   std::ranges::move(misread_states(), std::back_inserter(all));
   for (KnownFault& fault : all) {
     const auto same = std::ranges::find(out, fault.name, &KnownFault::name);
@@ -223,7 +241,11 @@ std::vector<KnownFault> picture_faults() {
 }
 
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
-  std::vector<KnownFault> out = of_pictures(scene.frame);
+  std::vector<KnownFault> out;
+  for (const FaultInfo& fault : fault_infos()) {  // first: of equals, conventions that are another renderer's
+    if (is_declared(fault.name, given.conventions)) out.push_back(not_as_declared(fault));
+  }
+  std::ranges::move(of_pictures(scene.frame), std::back_inserter(out));
   std::ranges::move(misread_states(scene), std::back_inserter(out));
   for (const FaultInfo& fault : fault_infos()) {
     if (is_declared(fault.name, given.conventions)) continue;
@@ -242,7 +264,8 @@ ColorAndDepth draw_with(std::span<const KnownFault* const> faults, const Scene& 
   Scene changed = scene;
   std::vector<std::string> of_stages;
   for (const std::string_view declared : {"merge.truncated", "depth.truncated"}) {  // first: a fault of the stage stays
-    if (is_declared(declared, conventions)) of_stages.emplace_back(declared);
+    const bool is_lifted = std::ranges::any_of(faults, [&](const KnownFault* f) { return f->lifts == declared; });
+    if (is_declared(declared, conventions) && !is_lifted) of_stages.emplace_back(declared);
   }
   for (const KnownFault* f : faults) {
     if (f->of_scene) f->of_scene(changed);

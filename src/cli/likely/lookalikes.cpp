@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,7 +30,7 @@ using KnownFaults = std::vector<const KnownFault*>;
 struct Lookalike {
   KnownFaults faults;
   Apart apart;
-  Apart against{};       // legal pixels that contradict the faults
+  FramesApart::Legal legal{};
   bool is_blank = true;  // nothing is drawn, wherever polygons are cut
 };
 
@@ -59,7 +61,9 @@ class Trial {
       const bool is_first = cut_at == CutAt::frame_sides;
       const auto nearer = [=](std::size_t a, std::size_t b) { return is_first ? b : std::min(a, b); };
       std::ranges::transform(out.apart, apart_.from(frame), out.apart.begin(), nearer);
-      std::ranges::transform(out.against, apart_.against(frame), out.against.begin(), nearer);
+      const FramesApart::Legal legal = apart_.legal(frame);
+      std::ranges::transform(out.legal.against, legal.against, out.legal.against.begin(), nearer);
+      std::ranges::transform(out.legal.alike, legal.alike, out.legal.alike.begin(), std::ranges::max);
     }
     return out;
   }
@@ -71,7 +75,9 @@ class Trial {
     return std::ranges::count(drawn.records.polygons.vertices, true, &ClipVertex<double>::cut);
   }
   ColorAndDepth frame_with(const KnownFaults& faults, CutAt cut_at, const ColorAndDepth& right) const {
-    const auto draws_anew = [](const KnownFault* f) { return f->of_scene || !f->of_stages.empty(); };
+    const auto draws_anew = [](const KnownFault* f) {
+      return f->of_scene || !f->of_stages.empty() || !f->lifts.empty();
+    };
     if (std::ranges::any_of(faults, draws_anew)) return draw_with(faults, scene_, conventions_, cut_at);
     ColorAndDepth out = right;
     for (const KnownFault* f : faults) f->of_frame(out);
@@ -102,13 +108,19 @@ std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
 }
 
+// Rank of a fault: pixels that it leaves, then legal pixels that contradict it, then those that it does not draw.
+auto rank(const Lookalike& l, Look look) {
+  const std::size_t drawn = l.legal.alike[look];
+  return std::tuple(l.apart[look], l.legal.against[look], std::numeric_limits<std::size_t>::max() - drawn);
+}
+
 // Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels, and no more legal pixels
 // contradict it than it explains. Where a stage up to coverage is wrong on its own input, or a fault of a wrong stage
 // explains as much, only faults of wrong stages count. `all`: the nearest first. Returns the fault named, or null.
 const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   const auto explains = [&](const Lookalike& l) {
-    return 10 * left(l) <= out.apart && l.against[look] <= out.apart - left(l);
+    return 10 * left(l) <= out.apart && l.legal.against[look] <= out.apart - left(l);
   };
   const auto is_of_wrong = [&](const Lookalike& l) {
     return std::ranges::any_of(l.faults, [&](const KnownFault* f) { return is_of(wrong, *f); });
@@ -125,7 +137,8 @@ const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, cons
   out.likely = text_of(nearest.faults);
   for (const Lookalike& l : all) {
     const std::string text = text_of(l.faults);
-    if (left(l) == left(nearest) && counts(l) && text != out.likely && std::ranges::count(out.ties, text) == 0)
+    const bool is_equal = rank(l, look) == rank(nearest, look);
+    if (is_equal && counts(l) && text != out.likely && std::ranges::count(out.ties, text) == 0)
       out.ties.push_back(text);
   }
   return &nearest;
@@ -139,7 +152,7 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
   out.apart = ours[look];
   if (is_fine(look)) out.codes = 0.5;
   std::erase_if(all, [&](const Lookalike& l) { return left(l) >= out.apart; });
-  std::ranges::stable_sort(all, {}, left);
+  std::ranges::stable_sort(all, {}, [&](const Lookalike& l) { return rank(l, look); });
   if (all.empty()) {
     out.text = "no known fault draws a frame that is nearer\n";
     return out;

@@ -182,7 +182,8 @@ faults::Fault fault_of(const std::string& name) {
   std::vector<std::string_view> names;
   for (const faults::Fault& f : faults::all()) names.push_back(f.name);
   throw std::invalid_argument(
-      fmt::format("no fault '{}' to put in{}: plumb list faults shows all", name, did_you_mean(name, names)));
+      fmt::format("no fault '{}' to put in{}: plumb list faults shows those that --fault puts in first", name,
+                  did_you_mean(name, names)));
 }
 
 }  // namespace

@@ -69,8 +69,11 @@ TEST(FramesApart, PassesOverLegalPixelsThatDifferFromOurs) {
   given.is_legal = given.is_legal_color = {1, 1, std::uint8_t{1}};
   const FramesApart legal(DepthFormat::z16, given, ours);
   EXPECT_THAT(legal.from(white), ElementsAre(0, 0, 0, 0, 0, 0, 0));
-  EXPECT_THAT(legal.against(white), ElementsAre(1, 1, 1, 1, 0, 1, 0));
-  EXPECT_THAT(legal.against(ours), ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(legal.legal(white).against, ElementsAre(1, 1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(legal.legal(white).alike, ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(legal.legal(ours).against, ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(legal.legal(ours).alike, ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(legal.legal(given).alike, ElementsAre(1, 1, 1, 1, 0, 1, 0));
 }
 
 // A legal depth that differs from ours: the pixel counts by its colour, but for a frame that moves the depth elsewhere.

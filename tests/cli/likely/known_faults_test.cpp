@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "cli/likely/lookalikes.h"
 #include "tests/suite.h"
 
 namespace plumbline::cli {
@@ -29,6 +30,43 @@ TEST(KnownFaults, AreNoneOfRowsAndDepthRangesThatConventionsTell) {
   EXPECT_TRUE(is_known("file.mirrored", learned));
   open.open = {"rows"};
   EXPECT_FALSE(is_known("file.depth_reversed", open));
+}
+
+// A frame that is rounded to the nearest, of a renderer that is said to truncate.
+TEST(KnownFaults, AreRoundingsThatConventionsDeclareAndTheRendererDoesNotHave) {
+  Conventions declared;
+  EXPECT_FALSE(is_known("merge.to_nearest", declared) || is_known("depth.to_nearest", declared));
+  declared.color_rounding = declared.depth_rounding = Conventions::Rounding::down;
+  EXPECT_TRUE(is_known("merge.to_nearest", declared) && is_known("depth.to_nearest", declared));
+  EXPECT_FALSE(is_known("merge.truncated", declared) || is_known("depth.truncated", declared));
+  const Scene scene = suite_scene("light/emission");
+  for (const char* fault : {"merge.to_nearest", "depth.to_nearest"}) {
+    Conventions of_frame = declared;
+    (std::string(fault).starts_with("merge") ? of_frame.color_rounding : of_frame.depth_rounding) =
+        Conventions::Rounding::nearest;
+    const Lookalikes found = lookalikes(scene, {draw_with({}, scene, of_frame), declared, {}});
+    EXPECT_TRUE(found.likely.ends_with(std::string("(fault ") + fault + ")")) << found.text;
+    EXPECT_TRUE(found.whole) << found.text;
+  }
+}
+
+// Of faults that explain all wrong pixels, one that draws the legal pixels that are unlike ours, too, comes first.
+TEST(KnownFaults, ThatDrawLegalPixelsToo) {
+  const Scene scene = suite_scene("coverage/shared_edges");
+  const std::vector<KnownFault> known = known_faults(scene, {});
+  const auto frame = [&](const std::string& fault) {
+    return draw_with(std::vector{&*std::ranges::find(known, fault, &KnownFault::name)}, scene, {});
+  };
+  GivenFrame given{frame("coverage.box_one_short"), {}, {}};
+  const ColorAndDepth part = frame("coverage.last_column_lost");
+  given.is_legal = Plane<std::uint8_t>(given.color.width(), given.color.height(), 0);
+  for (std::size_t i = 0; i < given.color.size(); ++i)
+    given.is_legal.values()[i] = given.color.values()[i] == part.color.values()[i] ? 0 : 1;
+  given.is_legal_color = given.is_legal;
+  given.depth = {};
+  const Lookalikes found = lookalikes(scene, given);
+  EXPECT_EQ(found.likely, "coverage (fault coverage.box_one_short)") << found.text;
+  EXPECT_NE(found.text.find("coverage.last_column_lost"), std::string::npos) << "it explains all wrong pixels, too";
 }
 
 }  // namespace
