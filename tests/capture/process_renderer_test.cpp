@@ -150,6 +150,8 @@ TEST_F(Process, NamesWhatWentWrong) {
   empty.renderer = "inside", empty.version = "42", empty.width = 4, empty.height = 2;
   write_capture(empty, root_ / "empty");
   EXPECT_HAS(failure(shell("cp '" + (root_ / "empty").string() + "'/* \"$2\"")), "left a capture that holds no array");
+  EXPECT_HAS(failure(shell("cp '" + (root_ / "empty").string() + "'/* \"$2\" && touch \"$2\"/planes.color.bin")),
+             "left a capture that holds no array");
   EXPECT_HAS(failure(make_process_renderer(
                  {.name = "outside", .version = "", .argv = {"/does/not/exist"}, .environment = {}, .shows = {}})),
              "/does/not/exist cannot be started: No such file");

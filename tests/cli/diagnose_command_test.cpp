@@ -75,6 +75,10 @@ TEST_F(Cli, DiagnoseRunsAProgram) {
       right.says("not judged: which triangle owns a sample on an edge (no tie rule is declared: plumb learn)\n"))
       << right.text;
   EXPECT_FALSE(plumb("diagnose " + kSharedEdges + " --against exact").says("owns a sample"));
+  test::write_text(at("any.json"), R"({"format": "plumbline conventions", "version": 1, "tie_rule": "any"})");
+  const Outcome any =
+      plumb("diagnose " + kSharedEdges + " --against exact --program " + program + "' --conventions " + at("any.json"));
+  EXPECT_TRUE(any.says("owns a sample on an edge (tie_rule any, of " + at("any.json") + ")\n")) << any.text;
   const Outcome bad =
       plumb("diagnose " + kSharedEdges + " --against exact --program " + program + " --fault depth.truncated'");
   EXPECT_EQ(bad.code, 1) << bad.text;

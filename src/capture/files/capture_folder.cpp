@@ -346,6 +346,7 @@ Capture read_capture(const fs::path& folder) {
   try {
     Capture capture;
     Reader reader(folder, capture);
+    capture.files_of_arrays = reader.files().size() - 1;  // beside the manifest
     visit_capture(reader, capture);
     reader.finish();
     check_indices(capture, folder);

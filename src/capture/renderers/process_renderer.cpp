@@ -240,9 +240,7 @@ class ProcessRenderer : public Renderer {
                                      left, request.memory_budget));
       }
       Capture capture = read_capture(folder);
-      const fs::directory_iterator files(folder);
-      if (std::distance(begin(files), end(files)) == 1)
-        fail("left a capture that holds no array");  // its manifest alone
+      if (capture.files_of_arrays == 0) fail("left a capture that holds no array");
       if (capture.width != scene.frame.width || capture.height != scene.frame.height) {
         fail(fmt::format("left a capture of {} x {} pixels where the scene has {} x {}", capture.width, capture.height,
                          scene.frame.width, scene.frame.height));

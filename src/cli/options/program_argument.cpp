@@ -228,8 +228,9 @@ std::string convention_notes(const std::string& file) {
   if (!settles_ties(conventions))
     out += fmt::format(
         "not judged: which triangle owns a sample on an edge ({})\n",
-        conventions.tie_rule == Conventions::TieRule::any
-            ? "no tie rule is declared: plumb learn"
+        file.empty() ? "no tie rule is declared: plumb learn"
+        : conventions.tie_rule == Conventions::TieRule::any
+            ? fmt::format("tie_rule any, of {}", file)
             : "a rule is settled by subpixel_bits 1 to 10, the sample on that grid; where rows count from the top, "
               "subpixel_rounding nearest");
   return out;
