@@ -28,7 +28,7 @@ struct NearEdge {
 std::vector<NearEdge> near_edges(const Projected& projected, std::span<PixelHit> hits, glm::dvec3 d, double delta) {
   std::vector<NearEdge> edges;
   for (std::size_t m = 0; m < hits.size(); ++m) {
-    if (hits[m].hit.certain || !hits[m].whole) continue;
+    if (hits[m].hit.certain || !hits[m].may_join_group) continue;
     const Triangle& t = projected.triangles[hits[m].hit.primitive];
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner &j = projected.corners[t.corner[(i + 1) % 3]], &k = projected.corners[t.corner[(i + 2) % 3]];
@@ -53,7 +53,7 @@ int form_groups(const Projected& projected, std::span<PixelHit> hits, int px, in
   double delta = 0;
   std::size_t candidates = 0;
   for (const PixelHit& h : hits) {
-    if (h.hit.certain || !h.whole) continue;
+    if (h.hit.certain || !h.may_join_group) continue;
     delta = std::max(delta, h.delta);
     ++candidates;
   }

@@ -73,7 +73,7 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   const bool by_grid = scene.conventions.depth_corners != Conventions::DepthCorners::as_they_are;
   const double half = by_grid || site.may_turn_over(out.hit.certain && not_cut) ? view.half : of_plane;
   double lo = view.z - half, hi = view.z + half;
-  out.whole = out.whole || (t.facing_kept && not_cut);
+  out.may_join_group = out.may_join_group || (t.facing_kept && not_cut);
   // Inside, every plane comes to a convex combination of the corners' depths; outside it may overshoot them.
   if (out.hit.certain && t.ahead) {
     lo = std::max(lo, t.z_min - corner_error);
@@ -106,9 +106,9 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   // A side plane cuts an edge that two triangles share: each rounds the new corner, down or up, perhaps to another grid
   // point.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
-  out.whole = t.facing_kept && !t.flat && !t.cut;
+  out.may_join_group = t.facing_kept && !t.flat && !t.cut;
   set_depth(site, out);
-  out.whole = out.whole && !apart;
+  out.may_join_group = out.may_join_group && !apart;
   const PixelDepth& view = out.view;
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
     return std::nullopt;

@@ -26,7 +26,7 @@ struct PixelHit {
   /// In double, the pixel is covered (`covers` where it is known, else with ties by rule left_bottom), in depth
   /// range, and not culled.
   bool inside = false;
-  bool whole = false;  ///< not culled, not cut here in depth, and side cuts round alike: may join a group
+  bool may_join_group = false;  ///< not culled, not cut here in depth, and side cuts round alike
   PixelDepth view;     ///< z_view: 0 on the near plane, 1 on the far one; not clamped. half: with snapping, as for cuts
   PixelDepth win;      ///< window z; clamped to the depth range under depth clamp
   bool drawn = false;  ///< inside, and passed all tests in double (oracle.h)

@@ -51,6 +51,13 @@ void add_jobs(CLI::App& command, int& jobs) {
       ->check(CLI::Range(1, kMostJobs));
 }
 
+// Clears `seeks_causes`.
+CLI::Option* add_no_causes(CLI::App& command, bool& seeks_causes) {
+  return command.add_flag_callback(
+      "--no-causes", [&seeks_causes] { seeks_causes = false; },
+      "Do not draw wrong scenes with each known fault, which takes most of the time where many are wrong");
+}
+
 void add(CLI::App& command, CheckOptions& o) {
   text(command, "scenes", o.scenes, "Scene files, and folders of them")->required();
   add_against(command, o.against);
@@ -90,11 +97,7 @@ void add(CLI::App& command, CheckOptions& o) {
   command.add_flag_callback("--no-cache", without_cache, "Judge every scene anew, and keep nothing")
       ->envname("PLUMBLINE_NO_CACHE");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
-  command
-      .add_flag_callback(
-          "--no-causes", [&o] { o.seeks_causes = false; },
-          "Do not draw wrong scenes with each known fault, which takes most of the time where many are wrong")
-      ->needs(command.get_option("--program"));
+  add_no_causes(command, o.seeks_causes)->needs(command.get_option("--program"));
   add_assets(command, o.scene_arguments);
 }
 
@@ -158,11 +161,12 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
   add_program(command, o.candidate, "Diagnose what this command line leaves: ")->excludes(fault)->excludes(folder);
   folder->excludes(fault);
+  add_no_causes(command, o.seeks_causes);
   CLI::Option* picture = text(command, "--picture", o.picture,
                               "Name the known faults that draw pictures like this one, which is all there is");
   text(command, "--depth", o.depth, "With --picture: window z as .exr, which is compared as well")->needs(picture);
   for (const char* other : {"--against", "--json", "--report", "--pixel", "--fragments", "--fault", "--capture",
-                            "--program", "--conventions"})
+                            "--program", "--conventions", "--no-causes"})
     picture->excludes(command.get_option(other));
   add_assets(command, o.scene_arguments);
 }

@@ -69,6 +69,7 @@ struct DiagnoseOptions {
   std::string folder;          ///< a capture of another renderer, or empty
   ProgramArgument candidate;   ///< another renderer
   std::string pixel;           ///< X,Y: this pixel's history is printed, too; or empty
+  bool seeks_causes = true;    ///< known faults are drawn, where another renderer is wrong
   std::uint64_t most_fragments = check::kMostFragments;
   WorkerLimits limits;  ///< of the process that diagnoses
   SceneArguments scene_arguments;

@@ -160,6 +160,7 @@ std::string hint_where_unexplained(const DiagnoseOptions& o, const check::Diagno
                                    const std::string& faults) {
   const bool is_ours = o.candidate.command.empty() && o.folder.empty();
   if (is_ours || !faults.empty() || holds(diagnosis)) return "";
+  if (!o.seeks_causes) return "\nknown faults are not sought, by --no-causes\n";
   if (o.candidate.conventions.empty())
     return "\nno known fault draws such a frame; " + hint_of_conventions(o.candidate.conventions);
   return check::is_by_frame_alone(diagnosis.verdict) ? "\nno known fault draws such a frame\n" : "";
@@ -192,7 +193,7 @@ DiagnosisAnswer diagnose_here(Subject& subject, const Watch& watch) {
     open = convention_notes(o.candidate.conventions);
     const Capture left = candidate->capture(scene, Request{});
     against_itself = convention_lines(candidate->info().conventions) + contradiction_lines(left, candidate->info());
-    faults = known_faults(scene, left, candidate->info(), diagnosis);
+    if (o.seeks_causes) faults = known_faults(scene, left, candidate->info(), diagnosis);
     holes = lines_of_holes(o, scene, left, candidate->info(), diagnosis);
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,

@@ -143,7 +143,9 @@ Scene textured_wall() {
 // Where there are no textures, other attributes are taken to be interpolated as colours are.
 void learn_interpolation(Prober& prober) {
   const ConventionWords words = words_of("interpolation"), of_colors = words_of("color_interpolation");
-  if (prober.lacks(words, {"color_encoding", kSampleWords.name}) || prober.lacks_linear_colors(words)) return;
+  if (prober.open_if_any_open(words, {"color_encoding", kSampleWords.name}) ||
+      prober.open_if_colors_are_not_linear(words))
+    return;
   C& c = prober.learned.conventions;
   const FoundInterpolation colors = interpolation_of(prober, receding_wall("interpolation", 0, 1));
   const std::string evidence = fmt::format("{} of {} pixels", colors.pixels, kFrameSize);
@@ -169,8 +171,8 @@ void learn_fog(Prober& prober) {
   constexpr float kDensity = 0.125f;
   const ConventionWords words = words_of("fog_factor");
   C& c = prober.learned.conventions;
-  if (prober.lacks(words, {"color_encoding", kSampleWords.name, "interpolation"})) return;
-  if (prober.lacks_linear_colors(words)) return;
+  if (prober.open_if_any_open(words, {"color_encoding", kSampleWords.name, "interpolation"})) return;
+  if (prober.open_if_colors_are_not_linear(words)) return;
   Scene scene = receding_wall("fog_factor", 1, 1);
   scene.draws[0].fog = Fog{.mode = Fog::Mode::exp, .color = glm::vec3(0), .density = kDensity};
   const Plane<glm::vec4> color = prober.draw(scene).color;
@@ -202,7 +204,7 @@ void learn_corners(Prober& prober) {
   const ConventionWords words = words_of("attribute_corners");
   const C& c = prober.learned.conventions;
   if (c.subpixel_bits == C::kFloat) return prober.found(words, "as_they_are", "positions are not snapped");
-  if (prober.lacks(words, {"color_rounding", "sample"})) return;
+  if (prober.open_if_any_open(words, {"color_rounding", "sample"})) return;
   if (c.sample != glm::dvec2(0.5) || c.color_encoding != C::Encoding::linear)
     return prober.open(words, "another sample or encoding of colours hides it");
   const double share = c.subpixel_rounding == C::Rounding::down ? 0.98

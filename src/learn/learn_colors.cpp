@@ -144,7 +144,9 @@ void learn_colors(Prober& prober) {
 // Ramps from left to right, in each channel another one over three codes, which begin and end between two codes.
 void learn_vertex_colors(Prober& prober) {
   const ConventionWords words = words_of("vertex_colors");
-  if (prober.lacks_linear_colors(words) || prober.lacks(words, {"color_rounding", kSampleWords.name})) return;
+  if (prober.open_if_colors_are_not_linear(words) ||
+      prober.open_if_any_open(words, {"color_rounding", kSampleWords.name}))
+    return;
   constexpr int kWidth = 128, kHeight = 8;
   constexpr std::array<double, 3> kLeft = {40.4, 90.6, 140.4}, kRight = {43.6, 93.6, 143.4};  // [codes]
   C& c = prober.learned.conventions;
@@ -200,7 +202,7 @@ void learn_alpha_test(Prober& prober) {
 // of the exact blend over the codes that the first layer left.
 void learn_blending(Prober& prober) {
   const ConventionWords words = words_of("blending");
-  if (prober.lacks_linear_colors(words)) return;
+  if (prober.open_if_colors_are_not_linear(words)) return;
   const auto code_under = [](int i) { return (i * 37) % 255; };
   const auto under = [&](int i) { return (static_cast<float>(code_under(i)) + 0.3f) / 255; };  // no code
   const auto over = [](int i) { return static_cast<float>((i * 91 + 40) % 256) / 255; };

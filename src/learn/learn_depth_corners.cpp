@@ -53,7 +53,7 @@ void learn_depth_corners(Prober& prober) {
     c.depth_corners = C::DepthCorners::as_they_are;
     return prober.found(words, name_of(c.depth_corners), "positions are not snapped");
   }
-  if (prober.lacks(words, {"sample", "subpixel_bits", "subpixel_rounding", "depth_range"})) return;
+  if (prober.open_if_any_open(words, {"sample", "subpixel_bits", "subpixel_rounding", "depth_range"})) return;
   const double off = off_grid(c), apart = kRise * off;
   const int column = c.sample.x < 0.25 ? 2 : 1;  // whose sample is in the snapped ramp
   const double as_it_is = kFirst + kRise * (column + c.sample.x - 1 - off), snapped = as_it_is + apart;

@@ -321,7 +321,7 @@ void count(Prober& prober, glm::ivec2 size, const std::vector<SlopedTriangle>& t
 void learn_depth_arithmetic(Prober& prober) {
   const ConventionWords words = words_of("depth_arithmetic");
   C& c = prober.learned.conventions;
-  if (prober.lacks(words, {"depth_format", "depth_rounding", kSampleWords.name})) return;
+  if (prober.open_if_any_open(words, {"depth_format", "depth_rounding", kSampleWords.name})) return;
   constexpr int kFinest = 10;  // places at multiples of 2^-10 pixel are exact (probe_scene.h)
   // Corners on the grid where depths may use snapped ones; else off the grid, where edge equations in float lose more.
   const int bits = c.depth_corners != C::DepthCorners::as_they_are && c.subpixel_bits != C::kFloat

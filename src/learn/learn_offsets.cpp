@@ -32,7 +32,7 @@ double moved_by(Prober& prober, const std::string& name, DepthFormat format, dou
 void learn_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format == C::Depth::z32f) return prober.open(kOffsetWords, "depths are floats");
-  if (prober.lacks(kOffsetWords, {"depth_range", "depth_format"})) return;
+  if (prober.open_if_any_open(kOffsetWords, {"depth_range", "depth_format"})) return;
   std::string evidence;
   glm::dvec2 units_of = c.offset_unit;
   for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
@@ -55,7 +55,7 @@ void learn_float_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format != C::Depth::z32f && c.depth_format != C::Depth::as_asked)
     return prober.open(kFloatOffsetWords, "depths have codes");
-  if (prober.lacks(kFloatOffsetWords, {"depth_range", "depth_format"})) return;
+  if (prober.open_if_any_open(kFloatOffsetWords, {"depth_range", "depth_format"})) return;
   constexpr double kUnits = 0x1p19, kStep = 0x1p-24;  // of 3/4
   // A renderer of floats alone may refuse a frame that asks for floats.
   const DepthFormat format = c.depth_format == C::Depth::z32f ? DepthFormat::z24 : DepthFormat::z32f;

@@ -187,7 +187,7 @@ MeanErrors mean_errors(Prober& prober) {
 
 void learn_weights(Prober& prober) {
   const ConventionWords words = words_of("texture_bits");
-  if (prober.lacks_linear_colors(words) || prober.lacks(words, {kSampleWords.name})) return;
+  if (prober.open_if_colors_are_not_linear(words) || prober.open_if_any_open(words, {kSampleWords.name})) return;
   const auto [most, highest, step] = mean_errors(prober);
   const C& c = prober.learned.conventions;
   const std::string evidence =
@@ -228,8 +228,8 @@ void learn_weights(Prober& prober) {
 // Greys of 100 to 110 codes times all codes. In codes, the greys are rounded, too.
 void learn_fragment_colors(Prober& prober) {
   const ConventionWords words = words_of("fragment_colors");
-  if (prober.lacks_linear_colors(words)) return;
-  if (prober.lacks(words, {"color_rounding", kSampleWords.name})) return;
+  if (prober.open_if_colors_are_not_linear(words)) return;
+  if (prober.open_if_any_open(words, {"color_rounding", kSampleWords.name})) return;
   C& c = prober.learned.conventions;
   const auto code = [](int x, int y) { return 16 * y + x; };
   const double most = texels_off(prober, "fragment_colors", 16, code, {100, 110});
@@ -327,7 +327,9 @@ Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample, C::Interpolat
 void learn_levels(Prober& prober) {
   C& c = prober.learned.conventions;
   const ConventionWords words = words_of("level_of_detail");
-  if (prober.lacks_linear_colors(words) || prober.lacks(words, {kSampleWords.name, "interpolation"})) return;
+  if (prober.open_if_colors_are_not_linear(words) ||
+      prober.open_if_any_open(words, {kSampleWords.name, "interpolation"}))
+    return;
   const Plane<glm::vec4> color = prober.draw(floor_scene()).color;
   Levels levels = levels_of(color, c.sample, c.interpolation);
   if (c.interpolation == C::Interpolation::affine) {  // levels may still be those of the surface
@@ -368,7 +370,7 @@ void learn_magnification(Prober& prober) {
 
 void learn_half_way(Prober& prober) {
   const ConventionWords words = words_of("half_way_level");
-  if (prober.lacks_linear_colors(words)) return;
+  if (prober.open_if_colors_are_not_linear(words)) return;
   std::array<double, 3> levels{};
   for (int i = 0; i < 3; ++i) {
     Texture texture = texture_of(64, [](int, int) { return 0; });

@@ -79,7 +79,7 @@ FanEdges fan_edges(Prober& prober, glm::dvec2 sample) {
 void learn_ties(Prober& prober) {
   const ConventionWords words = words_of("tie_rule");
   C& c = prober.learned.conventions;
-  if (prober.lacks(words, {kSampleWords.name})) return;
+  if (prober.open_if_any_open(words, {kSampleWords.name})) return;
   const double steps = c.subpixel_bits == C::kFloat ? 1024 : std::ldexp(1.0, c.subpixel_bits);
   if (c.sample * steps != glm::round(c.sample * steps)) {
     return prober.open(words, "no edge can be laid through a sample: its place is not on the grid");

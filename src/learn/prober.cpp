@@ -48,14 +48,14 @@ bool Prober::is_open(std::string_view name) const {
   return std::ranges::find(learned.conventions.open, name) != learned.conventions.open.end();
 }
 
-bool Prober::lacks(const ConventionWords& words, std::initializer_list<std::string_view> conventions) {
+bool Prober::open_if_any_open(const ConventionWords& words, std::initializer_list<std::string_view> conventions) {
   const auto lacking = std::ranges::find_if(conventions, [&](std::string_view name) { return is_open(name); });
   if (lacking == conventions.end()) return false;
   open(words, fmt::format("{} is open", *lacking));
   return true;
 }
 
-bool Prober::lacks_linear_colors(const ConventionWords& words) {
+bool Prober::open_if_colors_are_not_linear(const ConventionWords& words) {
   if (not_linear.empty()) return false;
   open(words, not_linear);
   return true;

@@ -52,9 +52,9 @@ class Prober {
   void fits_none(const ConventionWords& words, const std::string& evidence);
   bool is_open(std::string_view name) const;
   /// Whether any of `conventions`, by which the probe of `words` goes, is open; if so, opens `words`, too.
-  bool lacks(const ConventionWords& words, std::initializer_list<std::string_view> conventions);
+  bool open_if_any_open(const ConventionWords& words, std::initializer_list<std::string_view> conventions);
   /// Whether colours are encoded, or in no known way 4 codes or more off linear; if so, opens `words`.
-  bool lacks_linear_colors(const ConventionWords& words);
+  bool open_if_colors_are_not_linear(const ConventionWords& words);
   /// Adds a finding that belongs to no single convention.
   void unexplained(std::string finding) { learned.conventions.unexplained.push_back(std::move(finding)); }
 

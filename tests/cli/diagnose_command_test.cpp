@@ -67,6 +67,18 @@ TEST_F(Cli, DiagnoseRefusesAFolderThatIsNotOfTheScene) {
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + folder + " --fault coverage.inclusive_edges").code, 2);
 }
 
+TEST_F(Cli, DiagnoseSeeksKnownFaultsUnlessToldNotTo) {
+  const std::string line = "diagnose " + kSharedEdges +
+                           " --against exact --program '" PLUMBLINE_PLUMB
+                           " capture {scene} {output} --fault merge.blue_first'";
+  const Outcome sought = plumb(line), unsought = plumb(line + " --no-causes");
+  EXPECT_TRUE(sought.says("known faults that draw such a frame")) << sought.text;
+  EXPECT_EQ(unsought.code, 1) << unsought.text;
+  EXPECT_TRUE(unsought.says("known faults are not sought, by --no-causes\n")) << unsought.text;
+  EXPECT_FALSE(unsought.says("known faults that draw such a frame")) << unsought.text;
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --picture x.png --no-causes").code, 2);
+}
+
 TEST_F(Cli, DiagnoseRunsAProgram) {
   const std::string program = "'" PLUMBLINE_PLUMB " capture {scene} {output}";
   const Outcome right = plumb("diagnose " + kSharedEdges + " --against exact --program " + program + "'");

@@ -57,7 +57,7 @@ bool lacks_texels(const SceneJudgement& c, Stage stage) {
 void judge_beside(const SceneJudgement& c, const Capture& theirs, const RendererInfo& of, Stage stage,
                   const JudgeId& name) {
   const auto skip = [&](std::string_view why) { c.skip(name, stage, Outcome::unsupported, why); };
-  if (draws_otherwise(c.scene, c.conventions, stage))
+  if (differs_from_opengl(c.scene, c.conventions, stage))
     return skip("it draws by other conventions: oracles and exact judge the stage");
   if (!of[stage].shows) return skip(of[stage].reason);
   if (of.legal && stage == Stage::attributes) return skip(kOnlyShaded);

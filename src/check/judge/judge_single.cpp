@@ -87,7 +87,7 @@ const Legal* first_legal(const ReferenceCaptures& answers) {
 }
 
 // Inputs of a scene's judgement, beside the references' captures.
-struct Beside {
+struct JudgementInputs {
   RendererInfo shown;            ///< of the candidate, for this scene
   Capture mine;                  ///< the candidate's
   Renderer* referee = nullptr;   ///< makes single stages; null: none
@@ -97,7 +97,7 @@ struct Beside {
 };
 
 // Brings a foreign candidate's records into the form that comparators read, and adds what the referee makes of them.
-void prepare(const Scene& scene, const Scene& seen, const ReferenceCaptures& theirs, Beside& b) {
+void prepare(const Scene& scene, const Scene& seen, const ReferenceCaptures& theirs, JudgementInputs& b) {
   Renderer& referee = *b.referee;
   const Conventions& conventions = b.shown.conventions;
   if (b.shown.profile == Profile::foreign) {
@@ -114,7 +114,8 @@ void prepare(const Scene& scene, const Scene& seen, const ReferenceCaptures& the
 }
 
 // Appends the rows of one reference.
-void add_rows(const Scene& seen, Renderer& reference, const Capture& theirs, Beside& b, SceneVerdict& verdict) {
+void add_rows(const Scene& seen, Renderer& reference, const Capture& theirs, JudgementInputs& b,
+              SceneVerdict& verdict) {
   const RendererInfo info = reference.info();
   const SceneJudgement c{.scene = seen,
                          .candidate = b.mine,
@@ -143,7 +144,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
   const auto nothing = [&](const std::string& name, const Refusal& refusal) {
     verdict.comparisons.push_back(not_judged(scene.name, name, Stage::merge, refusal.outcome, refusal.why));
   };
-  Beside b;  // no reference draws a scene too large to judge
+  JudgementInputs b;  // no reference draws a scene too large to judge
   const std::optional<Refusal> refusal =
       refusal_within_budget([&] { b.mine = capture_all(scene, candidate, most_fragments); });
   b.shown = candidate.info();  // of a program: what it left of this scene

@@ -242,7 +242,7 @@ Capture test_in_float(Renderer& referee, const Scene& scene, const Capture& in) 
 
 }  // namespace
 
-Capture merge_in_float(Renderer& referee, const Scene& scene, const Capture& in, const C& conventions) {
+Capture merge_as_declared(Renderer& referee, const Scene& scene, const Capture& in, const C& conventions) {
   Capture out = referee.run_stage(scene, Stage::merge, in);
   const Records<double>& r = in.records;
   const bool is_read_again = scene.frame.color != ColorFormat::rgba32f && !colors_replace(scene);
@@ -273,7 +273,7 @@ bool fogs_by_vertices(const Scene& scene, const Conventions& conventions) {
          std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.fog.has_value(); });
 }
 
-bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage) {
+bool differs_from_opengl(const Scene& scene, const Conventions& conventions, Stage stage) {
   const bool has_codes = has_codes_of_vertices(scene.frame, conventions);
   if (stage <= Stage::clip)
     return (stage == Stage::clip && has_other_volume(conventions)) || (stage >= Stage::light && has_codes);
@@ -329,7 +329,7 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
       const bool is_opengls =
           conventions.color_rounding == C::Rounding::nearest && conventions.blending == C::Blending::in_float;
       if (is_opengls) break;
-      return merge_in_float(referee, scene, in, conventions);
+      return merge_as_declared(referee, scene, in, conventions);
     }
     default: break;
   }

@@ -15,7 +15,7 @@ bool has_other_volume(const Conventions& conventions);
 bool fogs_by_vertices(const Scene& scene, const Conventions& conventions);
 
 /// Whether the stage's result differs from OpenGL's by these conventions.
-bool draws_otherwise(const Scene& scene, const Conventions& conventions, Stage stage);
+bool differs_from_opengl(const Scene& scene, const Conventions& conventions, Stage stage);
 
 /// Whether run_by_conventions() knows which triangle owns a sample on an edge: the rule is settled (conventions.h,
 /// settles_ties), by left or right and bottom or top, on a grid that window.snapped holds (at most 8 bits); pixels are
@@ -40,6 +40,6 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
 /// Merge, by run_by_conventions(), of a renderer that blends in float: legal.color_lo and color_hi hold what its codes,
 /// rounded as declared and read again, may come to. Of frames of floats, and where no code is read again: as
 /// referee.run_stage() has it.
-Capture merge_in_float(Renderer& referee, const Scene& scene, const Capture& in, const Conventions& conventions);
+Capture merge_as_declared(Renderer& referee, const Scene& scene, const Capture& in, const Conventions& conventions);
 
 }  // namespace plumbline::check

@@ -195,7 +195,7 @@ void run_exact_stage(const SceneJudgement& c, Renderer& referee, Stage stage, co
   if (stage >= Stage::depth && lacks_fragment_records(c.candidate))
     return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   Conventions by = c.foreign ? c.conventions : Conventions();
-  Capture made = c.foreign && stage == Stage::merge ? merge_in_float(referee, c.scene, c.candidate, by)
+  Capture made = c.foreign && stage == Stage::merge ? merge_as_declared(referee, c.scene, c.candidate, by)
                                                     : run_by_conventions(referee, c.scene, stage, c.candidate, by);
   if (stage == Stage::depth && c.foreign && by.depth_corners == Conventions::DepthCorners::either) {
     if (const std::uint64_t apart = depths_that_differ(c, made); apart > 0) {

@@ -316,39 +316,39 @@ TEST_F(ByConventions, OffsetsAreOtherwiseInFramesOfTheUnitsFormat) {
   using enum DepthFormat;
   for (const DepthFormat format : {z16, z24, z32f}) {
     scene.frame.depth = format;
-    EXPECT_EQ(draws_otherwise(scene, of_floats, Stage::depth), format == z32f);
-    EXPECT_EQ(draws_otherwise(scene, of_24_bits, Stage::depth), format == z24);
-    EXPECT_EQ(draws_otherwise(scene, of_16_bits, Stage::depth), format == z16);
-    EXPECT_FALSE(draws_otherwise(scene, of_24_bits, Stage::coverage));
+    EXPECT_EQ(differs_from_opengl(scene, of_floats, Stage::depth), format == z32f);
+    EXPECT_EQ(differs_from_opengl(scene, of_24_bits, Stage::depth), format == z24);
+    EXPECT_EQ(differs_from_opengl(scene, of_16_bits, Stage::depth), format == z16);
+    EXPECT_FALSE(differs_from_opengl(scene, of_24_bits, Stage::coverage));
   }
 }
 
 TEST_F(ByConventions, ColorsAreOtherwiseInFogOfVerticesAndInCodes) {
   C by_vertices, in_codes;
   by_vertices.fog_factor = C::FogFactor::per_vertex, in_codes.fragment_colors = C::ColorNumbers::in_codes;
-  EXPECT_FALSE(draws_otherwise(scene, by_vertices, Stage::shade)) << "no fog";
+  EXPECT_FALSE(differs_from_opengl(scene, by_vertices, Stage::shade)) << "no fog";
   scene.draws[0].fog.emplace();
-  EXPECT_TRUE(draws_otherwise(scene, by_vertices, Stage::shade));
-  EXPECT_TRUE(draws_otherwise(scene, by_vertices, Stage::merge));
-  EXPECT_TRUE(draws_otherwise(scene, in_codes, Stage::attributes));
+  EXPECT_TRUE(differs_from_opengl(scene, by_vertices, Stage::shade));
+  EXPECT_TRUE(differs_from_opengl(scene, by_vertices, Stage::merge));
+  EXPECT_TRUE(differs_from_opengl(scene, in_codes, Stage::attributes));
   C of_vertices, affine;
   of_vertices.vertex_colors = C::ColorNumbers::in_codes;
   affine.color_interpolation = C::ColorInterpolation::affine;
   for (const Stage stage : {Stage::light, Stage::clip, Stage::attributes, Stage::merge})
-    EXPECT_TRUE(draws_otherwise(scene, of_vertices, stage));
+    EXPECT_TRUE(differs_from_opengl(scene, of_vertices, stage));
   for (const Stage stage : {Stage::vertex, Stage::window, Stage::coverage, Stage::depth, Stage::visibility})
-    EXPECT_FALSE(draws_otherwise(scene, of_vertices, stage)) << name_of(stage);
-  EXPECT_TRUE(draws_otherwise(scene, affine, Stage::attributes));
-  EXPECT_FALSE(draws_otherwise(scene, affine, Stage::light));
+    EXPECT_FALSE(differs_from_opengl(scene, of_vertices, stage)) << name_of(stage);
+  EXPECT_TRUE(differs_from_opengl(scene, affine, Stage::attributes));
+  EXPECT_FALSE(differs_from_opengl(scene, affine, Stage::light));
   for (const C& c : {by_vertices, in_codes}) {
-    EXPECT_FALSE(draws_otherwise(scene, c, Stage::depth));
-    EXPECT_FALSE(draws_otherwise(scene, c, Stage::visibility));
+    EXPECT_FALSE(differs_from_opengl(scene, c, Stage::depth));
+    EXPECT_FALSE(differs_from_opengl(scene, c, Stage::visibility));
   }
   scene.draws[0].alpha_test = AlphaTest{CompareFunc::greater, 0.5};
-  EXPECT_TRUE(draws_otherwise(scene, in_codes, Stage::visibility));
-  EXPECT_FALSE(draws_otherwise(scene, by_vertices, Stage::visibility)) << "fog leaves alpha alone";
+  EXPECT_TRUE(differs_from_opengl(scene, in_codes, Stage::visibility));
+  EXPECT_FALSE(differs_from_opengl(scene, by_vertices, Stage::visibility)) << "fog leaves alpha alone";
   scene.frame.color = ColorFormat::rgba32f;
-  EXPECT_FALSE(draws_otherwise(scene, in_codes, Stage::merge)) << "a frame without codes";
+  EXPECT_FALSE(differs_from_opengl(scene, in_codes, Stage::merge)) << "a frame without codes";
 }
 
 }  // namespace
