@@ -59,8 +59,11 @@ Vec3<double> unit(const Vec3<double>& v) {
 }
 
 void derive_normals(const DrawIndex& draws, Records<double>& r) {
-  if (r.matrices.size() != draws.ranges().size() || r.vertices.size() != draws.vertices())
+  if (r.matrices.size() != draws.ranges().size())
     throw std::invalid_argument("vertex.n_eye: left out, and matrices.* are not there for all draws");
+  if (r.vertices.size() != draws.vertices())
+    throw std::invalid_argument(
+        fmt::format("vertex.*: expected {} vertices, as the scene has, found {}", draws.vertices(), r.vertices.size()));
   for (std::size_t d = 0; d < draws.ranges().size(); ++d) {
     const Draw& draw = draws.scene().draws[d];
     const Mesh& mesh = draws.scene().meshes[draw.mesh];

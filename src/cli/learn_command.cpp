@@ -51,8 +51,8 @@ class Remembering : public Renderer {
   std::vector<std::pair<Scene, Planes>> drawn_;
 };
 
-// Finding about probes that a server draws otherwise when started for each alone; compares for 10 s at most, and prints
-// how far it came. Empty: no difference, or the program is no server.
+// Finding about probes that a server draws otherwise when it is started for each alone. Empty: no difference, or the
+// program is no server. Comparing ends after 10 s, with a line for people on how many probes it came to.
 std::string kept_state(ProgramArgument program, const std::vector<std::pair<Scene, Planes>>& drawn) {
   constexpr std::chrono::seconds kMost{10};
   const auto until = std::chrono::steady_clock::now() + kMost;
@@ -71,8 +71,7 @@ std::string kept_state(ProgramArgument program, const std::vector<std::pair<Scen
     }
     ++compared;
   }
-  if (compared < drawn.size())
-    fmt::print("state: {} of {} probes drawn by a server of their own within 10 s\n", compared, drawn.size());
+  if (compared < drawn.size()) fmt::print("state: compared on {} of {} probes, within 10 s\n", compared, drawn.size());
   if (others == 0) return "";
   return fmt::format(
       "{} of {} probes are drawn otherwise when the program is started for each alone: it keeps a state (is the frame "

@@ -193,6 +193,12 @@ TEST(CompleteRecords, RefuseWhatNothingFollowsFrom) {
   capture.records.matrices.clear();
   expect_refused(scene, capture, "vertex.n_eye: left out, and matrices.* are not there for all draws");
   capture = whole_capture(scene);
+  capture.derived = {"vertex.n_eye"};
+  const std::size_t vertices = capture.records.vertices.size();
+  capture.records.vertices.pop_back();
+  expect_refused(scene, capture,
+                 fmt::format("vertex.*: expected {} vertices, as the scene has, found {}", vertices, vertices - 1));
+  capture = whole_capture(scene);
   capture.derived = {"clip.cut"};
   capture.records.vertices.pop_back();
   expect_refused(scene, capture, "clip.cut: left out, and vertex.* are not there for all vertices");
