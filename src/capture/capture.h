@@ -41,8 +41,8 @@ constexpr std::uint64_t id_weight(std::uint32_t primitive) {
          static_cast<std::uint64_t>(id_weight_part(primitive, 2)) << 40;
 }
 
-/// Whose places on the grid window.snapped holds: the renderer's, or p_win snapped by the conventions.
-enum class Places { given, derived };
+/// Origin of window.snapped: handed out by the renderer, or p_win snapped by the conventions.
+enum class SnappedBy { renderer, conventions };
 
 struct Capture {
   std::string renderer;  ///< name of the renderer
@@ -58,7 +58,7 @@ struct Capture {
   /// (complete_records.h).
   std::set<std::string> derived;
   std::set<std::string> without_records;  ///< groups whose arrays a folder holds with 0 records, such as "window"
-  Places places = Places::given;
+  SnappedBy snapped_by = SnappedBy::renderer;
   std::size_t files_of_arrays = 0;  ///< number of files that a folder's manifest names
   bool depth_in_float = false;      ///< planes.depth was read from f32: complete_records() finds the codes
   Legal legal;                      ///< an oracle's legal answers for each pixel

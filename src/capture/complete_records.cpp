@@ -185,9 +185,9 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
 
 // ---- depths
 
-// How far from code / (2^n - 1) a depth in [0,1] may be that was computed from the code, such as 1 - code' / (2^n - 1):
-// by 8 roundings. In double these are of 2^-53. Codes of 16 bits may be computed in float, whose roundings are of 2^-24:
-// 8 of them are 1/32 of such a code.
+// Largest distance from code / (2^n - 1) of a depth in [0,1] that was computed from the code, such as
+// 1 - code' / (2^n - 1): 8 roundings, each of 2^-53 in double. Codes of 16 bits may be computed in float: 8 roundings
+// of 2^-24 are 1/32 of a code.
 double code_roundings(double codes) { return codes < 0x1p20 ? 0x1p-21 : 0x1p-50; }
 
 // ---- order
@@ -273,7 +273,7 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   sort_triangles(capture);
   sort_fragments(capture);
   visit_capture(ClearUnused{draws, r}, capture);
-  capture.places = capture.derived.contains("window.snapped") ? Places::derived : Places::given;
+  capture.snapped_by = capture.derived.contains("window.snapped") ? SnappedBy::conventions : SnappedBy::renderer;
   capture.derived.clear();
   const DepthFormat format = depth_format_of(scene.frame, conventions);
   const double codes = depth_scale(format);

@@ -142,8 +142,8 @@ double snapped(const Conventions& conventions, double from_centre);
 /// down or up.
 inline constexpr double kOfFixedPoint = 0x1p-12;
 
-/// Range of snapped() of coordinates that are displaced before they are rounded: down and up by at most kOfFixedPoint;
-/// to the nearest, not at all.
+/// Range of snapped() over positions within kOfFixedPoint of `from_centre`. Of grids that are rounded to the nearest:
+/// one value.
 struct SnappedRange {
   double least, most;
 };

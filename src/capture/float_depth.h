@@ -48,12 +48,12 @@ double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 fra
 /// below 1 each. in_double: 0. in_float: the larger of the first two. in_float_stepped: that, and error_by_steps().
 /// in_float_from_origin: the largest of the first three.
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
-                   glm::dvec2 frame = kNoSides);
+                   glm::dvec2 frame);
 
 /// Sum of the errors of the three window barycentrics at p: each barycentric is bounded as a depth that is 1 at one
 /// corner and 0 at the others.
 double shares_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
-                    glm::dvec2 frame = kNoSides);
+                    glm::dvec2 frame);
 
 /// Error of an attribute whose numerator and denominator are planes of their own. `most`: largest absolute value at the
 /// corners. `shares`: shares_error() times the corners' largest 1/w over the pixel's 1/w. Infinite if `shares` is 1 or
@@ -64,6 +64,6 @@ double attribute_error(double shares, double most);
 /// and whose depth gradients are at most `slope` [window z per pixel]. A `slope` above 2 / altitude counts as 2 /
 /// altitude: no such triangle is steeper.
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window,
-                             glm::dvec2 frame = kNoSides);
+                             glm::dvec2 frame);
 
 }  // namespace plumbline

@@ -33,11 +33,11 @@ double x_not_advanced(glm::dvec2 lower, glm::dvec2 upper, int row) {
   return x_at_row(lower, upper, row) + (begin - first * kSubpixel) * slope;
 }
 
-// Part that is left out: the row below the middle corner, or the one above it; the first or the last pixel of each
-// span. Or what is drawn, too: the pixel after each span.
+// Mistake at a part of the triangle: a row beside the middle corner or a pixel of each span is left out, or the pixel
+// after each span is drawn.
 enum class Misdrawn { none, below_middle, above_middle, first_pixels, last_pixels, pixel_after };
 
-bool is_lost(Misdrawn what, const std::array<double, 3>& corners_y, int row) {
+bool loses_row(Misdrawn what, const std::array<double, 3>& corners_y, int row) {
   std::array<double, 3> y = corners_y;
   std::ranges::sort(y);
   const int middle = first_centre(y[1]);
@@ -61,11 +61,9 @@ PixelList by_spans(const Triangle& t, const PixelBounds& box) {
       const double at = x(lower, upper, row);
       span = span ? std::minmax({span->first, span->second, at}) : std::pair(at, at);
     }
-    if (!span || is_lost(what, {y(0), y(1), y(2)}, row)) continue;
+    if (!span || loses_row(what, {y(0), y(1), y(2)}, row)) continue;
     const int first = first_centre(span->first) + (what == Misdrawn::first_pixels ? 1 : 0),
-              more = what == Misdrawn::pixel_after   ? 1
-                     : what == Misdrawn::last_pixels ? -1
-                                                     : 0,
+              more = int{what == Misdrawn::pixel_after} - int{what == Misdrawn::last_pixels},
               end = first_centre(span->second) + more;
     for (int column = std::max(first, box.x0); column < std::min(end, box.x1); ++column) out.emplace_back(column, row);
   }

@@ -297,7 +297,7 @@ void count(Prober& prober, glm::ivec2 size, const std::vector<SlopedTriangle>& t
     const double z = t.depth(sample), step = depth_step(format_of_24(c.depth_format), z),
                  off = farther(0, (left(x, y) - z) / step + middle_of(c.depth_rounding)) - 0.5;
     const auto fits = [&](C::DepthArithmetic arithmetic) {
-      return std::size_t{off <= kDoubleError + depth_error(arithmetic, t.p_win, sample) / step ? 1u : 0u};
+      return std::size_t{off <= kDoubleError + depth_error(arithmetic, t.p_win, sample, size) / step ? 1u : 0u};
     };
     out.most = std::max(out.most, off);
     ++out.pixels;

@@ -159,6 +159,12 @@ TEST_F(Cli, ProgramOfEachSubmissionHasARow) {
   EXPECT_NE(test::text_of(folder_ / "grades" / "ada.json").find("\"score\": 5.0"), std::string::npos);
   EXPECT_NE(test::text_of(folder_ / "grades" / "it's bob.json").find("\"score\": 0.0"), std::string::npos);
   EXPECT_NE(test::text_of(folder_ / "table.md").find("| ada | 5 of 5 | 1 | 0 | 0 | 0 | 0 |"), std::string::npos);
+  std::filesystem::remove_all(folder_ / "all" / "it's bob");
+  const std::string far_plane = "check " + kScenes + "clip/along_the_far_plane.json --submissions " + at("all") +
+                                " --program 'sh {submission}/run {input} {output}'";
+  const Outcome unable = plumb(far_plane);
+  EXPECT_EQ(unable.code, 1) << "nothing could be judged: " << unable.text;
+  EXPECT_TRUE(std::regex_search(unable.text, std::regex("\nada +- +0 +0 +0 +0 +1"))) << unable.text;
   EXPECT_EQ(
       plumb("check " + kSharedEdges + " --submissions " + at("none") + " --program 'sh {submission} {input} {output}'")
           .code,

@@ -146,8 +146,8 @@ TEST(OracleConventions, DepthsInFloatLieWithinTheErrorOfTheirArithmetic) {
   };
   EXPECT_EQ(slack(whole, in_double), 0);
   for (const auto arithmetic : {in_float, in_float_from_origin}) {
-    const double error = depth_error(arithmetic, whole, {kX + 0.5, kY + 0.5}),
-                 of_beyond = depth_error(arithmetic, beyond, {kX + 0.5, kY + 0.5});
+    const double error = depth_error(arithmetic, whole, {kX + 0.5, kY + 0.5}, kNoSides),
+                 of_beyond = depth_error(arithmetic, beyond, {kX + 0.5, kY + 0.5}, kNoSides);
     EXPECT_GT(error, 0x1p-23);
     EXPECT_NEAR(slack(whole, arithmetic), error, 0.01 * error);
     EXPECT_GT(slack(beyond, arithmetic), 1.05 * of_beyond) << "pieces near the pixel";

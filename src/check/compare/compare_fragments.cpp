@@ -80,15 +80,15 @@ bool are_sums_of(const Records<double>& records, const Planes& planes) {
 
 namespace {}  // namespace
 
-bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, Places places) {
+bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, SnappedBy snapped_by) {
+  if (snapped_by == SnappedBy::renderer) return false;
   const double steps = std::exp2(conventions.subpixel_bits);
   if (conventions.subpixel_rounding != Conventions::Rounding::nearest) {
     const auto is_at_line = [&](double p_win) {
       const auto [least, most] = snapped_range(conventions, (p_win - 0.5) * kSubpixel);
       return least != most;
     };
-    return places == Places::derived &&
-           std::ranges::any_of(t.v, [&](const auto& v) { return is_at_line(v.p_win.x) || is_at_line(v.p_win.y); });
+    return std::ranges::any_of(t.v, [&](const auto& v) { return is_at_line(v.p_win.x) || is_at_line(v.p_win.y); });
   }
   const auto is_between = [&](double p_win) {
     const double middle = p_win * steps - 0.5;
@@ -99,25 +99,25 @@ bool has_corner_between_places(const WindowTriangle<double>& t, const Convention
 
 namespace {
 
-// edge_displacement() of a triangle's edges.
-double of_steps(const WindowTriangle<double>& t, const Conventions& conventions) {
+// edge_displacement() of a triangle's edges in a frame of that height [pixels].
+double of_steps(const WindowTriangle<double>& t, const Conventions& conventions, double height) {
   const auto [low, high] = std::minmax({t.v[0].p_win.y, t.v[1].p_win.y, t.v[2].p_win.y});
   const double most_x = std::max({std::abs(t.v[0].p_win.x), std::abs(t.v[1].p_win.x), std::abs(t.v[2].p_win.x)});
-  return edge_displacement(conventions.depth_arithmetic, high - low, most_x);
+  return edge_displacement(conventions.depth_arithmetic, std::min(high - low, height), most_x);
 }
 
 // Displacement of a triangle's edges in the candidate [pixels]: that by steps, and that by its grid, which moves a
 // corner by half a step in x and in y, at most; rounded down or up, by a whole step. Without a grid, an edge function
 // in float is off by 8 u of the largest coordinates.
-double moved(const WindowTriangle<double>& t, const Conventions& conventions) {
+double moved(const WindowTriangle<double>& t, const Conventions& conventions, double height) {
   const int bits = conventions.subpixel_bits;
   if (bits == Conventions::kFloat) {
     double most = 0;
     for (const WindowVertex<double>& v : t.v) most = std::max(most, std::abs(v.p_win.x) + std::abs(v.p_win.y));
-    return 8 * u * most + of_steps(t, conventions);
+    return 8 * u * most + of_steps(t, conventions, height);
   }
   const bool to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
-  return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions);
+  return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions, height);
 }
 
 // Legality of a sample's membership in the two triangles that share its edge, by a tie rule.
@@ -142,10 +142,9 @@ std::size_t edges_near(const std::array<glm::dvec2, 3>& corners, glm::dvec2 p, d
 // tie rule has it so (is_owned()).
 template <class Open>
 Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions, glm::dvec2 sample, Open open) {
+                                    const Conventions& conventions, glm::dvec2 sample, double height, Open open) {
   constexpr double kOfExact = std::numbers::sqrt2 / 2 / kSubpixel;  // [pixels] as far as exact moves a corner
-  const bool by_one_grid =
-      conventions.subpixel_bits == 8 && conventions.subpixel_rounding == Conventions::Rounding::nearest;
+  const bool by_one_grid = conventions.subpixel_bits == 8;
   std::optional<SharedEdges> shared;  // once there is a fragment to ask about
   const auto is_covered = [&](Covered c, std::uint32_t triangle) {
     c.triangle = triangle;
@@ -156,9 +155,9 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
   // By one grid both sides snap a corner to one place.
   const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
     const WindowTriangle<double>& t = candidate.triangles[triangle];
-    if (by_one_grid && !has_corner_between_places(t, conventions, Places::derived))
-      return edges_near(window_corners(t, true), p, of_steps(t, conventions));
-    return edges_near(window_corners(t, false), p, moved(t, conventions) + (by_both ? kOfExact : 0));
+    if (by_one_grid && !has_corner_between_places(t, conventions, SnappedBy::conventions))
+      return edges_near(window_corners(t, true), p, of_steps(t, conventions, height));
+    return edges_near(window_corners(t, false), p, moved(t, conventions, height) + (by_both ? kOfExact : 0));
   };
   const auto on_an_edge = [&](const Covered& c) {
     const glm::dvec2 p = glm::dvec2(c.x, c.y) + sample;
@@ -175,15 +174,15 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
 }  // namespace
 
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
-                                         const Conventions& conventions, glm::dvec2 sample) {
-  return covered_except_edges_of(candidate, reference, conventions, sample, [](const auto&) { return true; });
+                                         const Conventions& conventions, glm::dvec2 sample, double height) {
+  return covered_except_edges_of(candidate, reference, conventions, sample, height, [](const auto&) { return true; });
 }
 
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions, Places places) {
+                                    const Conventions& conventions, SnappedBy snapped_by, double height) {
   return covered_except_edges_of(
-      candidate, reference, conventions, glm::dvec2(0.5),
-      [&](const WindowTriangle<double>& t) { return has_corner_between_places(t, conventions, places); });
+      candidate, reference, conventions, glm::dvec2(0.5), height,
+      [&](const WindowTriangle<double>& t) { return has_corner_between_places(t, conventions, snapped_by); });
 }
 
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal) {
@@ -230,7 +229,8 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
 namespace {
 
 // Error of a colour by the arithmetic that the conventions declare.
-double declared_error(const Conventions& conventions, const WindowTriangle<double>& t, const Covered& c) {
+double declared_error(const Conventions& conventions, const WindowTriangle<double>& t, const Covered& c,
+                      glm::dvec2 frame) {
   if (conventions.depth_arithmetic == Conventions::DepthArithmetic::in_double || t.corners < 3) return 0;
   const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
   const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
@@ -240,14 +240,14 @@ double declared_error(const Conventions& conventions, const WindowTriangle<doubl
   for (const auto& corner : t.v) {
     for (int k = 0; k < 4; ++k) most = std::max(most, std::abs(corner.color[k]));
   }
-  const double shares = shares_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5});
+  const double shares = shares_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}, frame);
   return attribute_error(shares * nearest / here, most);
 }
 
 }  // namespace
 
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
-                               double from_origin, const Conventions& conventions) {
+                               double from_origin, const Conventions& conventions, glm::dvec2 frame) {
   return each_fragment(
       "attributes", "u", candidate, candidate.attributes.size(), reference.attributes.size(),
       [&](Meter& meter, std::size_t i) {
@@ -260,7 +260,7 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
         const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
         const Vec4<double> allowance =
             from_origin > 0 ? bounds_from_origin(triangle, c.x, c.y).color_error(from_origin) : Vec4<double>(0);
-        const double declared = from_origin > 0 ? declared_error(conventions, triangle, c) : 0;
+        const double declared = from_origin > 0 ? declared_error(conventions, triangle, c, frame) : 0;
         // Extrapolated to the horizon, or in an arithmetic that loses all shares: any colour.
         if (!std::isfinite(bound.x + bound.y + bound.z + bound.w + allowance.x + declared)) {
           meter.ambiguous();

@@ -6,6 +6,7 @@
 
 #include "capture/capture.h"
 #include "capture/conventions.h"
+#include "capture/float_depth.h"
 #include "capture/stages.h"
 #include "check/bounds/bounds.h"
 #include "check/compare/legal_window.h"
@@ -71,16 +72,18 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// to 1/256 pixel, and by stepping in float where depth_arithmetic says so, together. But a sample on an edge that two
 /// triangles share (shared_edges.h), and beside none of their others, is in exactly one of them: else it is a
 /// difference, unless the tie rule is inclusive (both) or exclusive (neither). `sample`: sample position [pixels from
-/// the pixel's corner of smallest coordinates].
+/// the pixel's corner of smallest coordinates]. `height`: the frame's [pixels]; edges are stepped in its rows.
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
-                                         const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5));
-/// Whether the candidate may have snapped a corner to several places of its grid. Rounded to the nearest, a corner lies
-/// within 4 u of the middle between two; rounded down or up, within kOfFixedPoint of a place, and `places` are derived.
-bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, Places places);
+                                         const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5),
+                                         double height = kNoSides.y);
+/// Whether the candidate may have snapped a corner to several positions of its grid: it handed none out, and a corner
+/// lies within 4 u of the middle between two (rounded to the nearest) or within kOfFixedPoint of one (down, up).
+bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, SnappedBy snapped_by);
 /// compare_covered() for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Fragments at
 /// edges are ambiguous only in triangles that has_corner_between_places().
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions, Places places = Places::given);
+                                    const Conventions& conventions, SnappedBy snapped_by = SnappedBy::renderer,
+                                    double height = kNoSides.y);
 /// Planes count and id_sum (capture.h) of fragments whose `triangle` is an index into `triangles`.
 struct FragmentSums {
   Plane<std::uint32_t> count;
@@ -102,9 +105,10 @@ Measurement compare_open_covered(const Capture& candidate, const Records<double>
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions = {}, double from_origin = 0);
 /// Compares interpolated colours. `from_origin`: as in compare_depth(); above 0, the error of the declared
-/// depth_arithmetic is allowed as well.
+/// depth_arithmetic is allowed as well, in a frame of that size [pixels].
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor,
-                               double from_origin = 0, const Conventions& conventions = {});
+                               double from_origin = 0, const Conventions& conventions = {},
+                               glm::dvec2 frame = kNoSides);
 /// Compares shaded colours. Plain draws: bit for bit (as floats), but for `copies` u of the value. Other draws:
 /// `factor` u of each step's magnitude (shade_bounds.h). With `copies` above 0, in a frame of codes, colours may be
 /// clamped to [0, 1].

@@ -156,7 +156,7 @@ class RunComparison {
   // Whether `other` is a place of the grid that a stranger may give to `place`, beside `own`. To the nearest, it is the
   // second of two that are equally near: no specification says which is taken; exact takes the even one.
   bool may_be_snapped(double place, double own, double other) const {
-    if (conventions_.subpixel_bits > 8) return false;
+    if (conventions_.subpixel_bits == Conventions::kFloat || conventions_.subpixel_bits > 8) return false;
     if (conventions_.subpixel_rounding != Conventions::Rounding::nearest) {
       const auto [least, most] = snapped_range(conventions_, place);
       return other == least || other == most;

@@ -24,7 +24,8 @@ struct Spot {
   Vec2<double> middle, reach;
 };
 
-// Positions on the grid within the error of p_win [its steps], displaced by kOfFixedPoint before roundings down and up.
+// Grid positions [its steps] of p_win within its error; on grids rounded down or up, within its error and
+// kOfFixedPoint.
 Spot snapped_spot(const WindowCorner& c, const Conventions& grid) {
   const bool is_to_nearest = grid.subpixel_rounding == Conventions::Rounding::nearest;
   Spot out{};

@@ -31,6 +31,9 @@ double from_origin(const SceneJudgement& c, Stage stage) {
   return c.foreign ? tolerance(Profile::opengl, stage).factor : 0;
 }
 
+// [pixels].
+glm::dvec2 size_of(const FrameFormat& frame) { return {frame.width, frame.height}; }
+
 // Roundings of a stranger's colours at corners, which may be products by 1/w undone, or fixed point of 16 bits.
 double corner_roundings(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
 
@@ -67,7 +70,7 @@ Measurement compare_varying(const SceneJudgement& c, Stage stage, Varying v, con
   if (stage == Stage::window)
     return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c), facing_area(c));
   if (c.foreign && v == Varying::normal) stretch_unit_normals(a.attributes, b.attributes);
-  return compare_attributes(a, b, factor, from_origin(c, stage), c.conventions);
+  return compare_attributes(a, b, factor, from_origin(c, stage), c.conventions, size_of(c.scene.frame));
 }
 
 // Whether a foreign candidate declares conventions, and its tie rule or its grid is not exact's.
@@ -164,10 +167,11 @@ void compare_coverage_stage(const SceneJudgement& c, const Capture& made, const 
   const Stage stage = Stage::coverage;
   const bool are_counted = are_sums_of(mine, c.candidate.planes);
   if (c.foreign && are_counted && knows_ties(c.scene, c.conventions))
-    return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions, c.candidate.places));
+    return c.add(name, stage,
+                 compare_covered_by_rule(mine, theirs, c.conventions, c.candidate.snapped_by, c.scene.frame.height));
   if (covers_otherwise(c) && are_counted) {
     const glm::dvec2 sample = 0.5 + glm::dvec2(sample_offset(c.scene.frame)) / double{kSubpixel};
-    return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample));
+    return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample, c.scene.frame.height));
   }
   Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
   if (lacks_fragment_records(c.candidate))
@@ -230,7 +234,8 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
     case Stage::depth: return add([&](double f) { return depths_by_exact(c, made, f); });
     case Stage::attributes:
       return add([&](double f) {
-        return varyings(compare_attributes(mine, theirs, f, from_origin(c, stage), c.conventions));
+        return varyings(
+            compare_attributes(mine, theirs, f, from_origin(c, stage), c.conventions, size_of(c.scene.frame)));
       });
     case Stage::texture: {
       const std::vector<TexelRange>* legal = c.foreign ? &made.legal.texels : nullptr;

@@ -125,12 +125,10 @@ FramesApart::Legal FramesApart::legal(const ColorAndDepth& frame) const {
     const Distance from_given = distance(format_, given_, frame, i), from_ours = distance(format_, ours_, frame, i);
     for (std::size_t look = 0; look < kLooks; ++look) {
       if (counted_[i][look] != passed_over) continue;
-      const auto is_beyond = [&](const Distance& d) {
-        return d.is_color_beyond(kEyes[look]) || d.is_depth_beyond(kEyes[look]);
-      };
-      if (!is_beyond(from_given)) {
-        ++out.alike[look];
-      } else if (is_beyond(from_ours)) {
+      const Eye& eye = kEyes[look];
+      if (!from_given.is_color_beyond(eye, rgb_from_ours_[i]) && !from_given.is_depth_beyond(eye)) {
+        ++out.drawn[look];
+      } else if (from_ours.is_color_beyond(eye) || from_ours.is_depth_beyond(eye)) {
         ++out.against[look];
       }
     }

@@ -35,8 +35,8 @@ struct GivenFrame : ColorAndDepth {
 
 /// Threshold of a difference. Coarse: beyond 1.5 codes of 8 bits or 1.5 steps of depth, with alpha or without, or by
 /// colour alone, whatever the depths, or by depth alone. Nearer: by colour alone, where the frame is not four times as
-/// near as ours: the renderer's approximations, as of levels of detail, count little beside a mistake. Fine: beyond half
-/// a code, or a quarter of a step, which only truncation makes.
+/// near as ours: approximations of the renderer, as of levels of detail, count little beside a mistake. Fine: beyond
+/// half a code, or a quarter of a step, which only truncation makes.
 enum Look { kCoarseByAlpha, kCoarse, kCoarseColor, kNearerColor, kCoarseDepth, kFineColor, kFineDepth };
 constexpr std::size_t kLooks = 7;
 constexpr bool is_of_color(Look look) { return look == kCoarseColor || look == kNearerColor || look == kFineColor; }
@@ -59,7 +59,7 @@ class FramesApart {
   /// Legal pixels that differ from ours, by what they say of a fault's frame.
   struct Legal {
     Apart against{};  ///< the fault's frame differs from both: they contradict it
-    Apart alike{};    ///< the fault's frame does not differ from the given one: it draws them, too
+    Apart drawn{};    ///< the fault's frame does not differ from the given one
   };
   Legal legal(const ColorAndDepth& frame) const;
 

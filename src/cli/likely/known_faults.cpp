@@ -242,7 +242,7 @@ std::vector<KnownFault> picture_faults() {
 
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
   std::vector<KnownFault> out;
-  for (const FaultInfo& fault : fault_infos()) {  // first: of equals, conventions that are another renderer's
+  for (const FaultInfo& fault : fault_infos()) {  // a wrong declaration comes before faults that draw the same frame
     if (is_declared(fault.name, given.conventions)) out.push_back(not_as_declared(fault));
   }
   std::ranges::move(of_pictures(scene.frame), std::back_inserter(out));
@@ -253,7 +253,8 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
     out.push_back(
         {.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .of_stages = {name}});
   }
-  if (given.has_alpha) out.push_back(alpha_not_written(scene.frame));  // of equals, whoever alters alpha comes first
+  // Faults that alter alpha come before alpha that is not written.
+  if (given.has_alpha) out.push_back(alpha_not_written(scene.frame));
   std::erase_if(
       out, [&](const KnownFault& f) { return is_of(given.right, f) || is_contradicted(f.name, given.conventions); });
   return out;

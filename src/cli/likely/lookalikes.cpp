@@ -34,6 +34,12 @@ struct Lookalike {
   bool is_blank = true;  // nothing is drawn, wherever polygons are cut
 };
 
+// Rank of a fault: pixels that it leaves, then legal pixels that contradict it, then those that it does not draw.
+auto rank(const Lookalike& l, Look look) {
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  return std::tuple(l.apart[look], l.legal.against[look], kMost - l.legal.drawn[look]);
+}
+
 bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
   return std::ranges::none_of(plane.values(), [&](const glm::vec4& c) { return colors_apart(color, c, 1.5f); });
 }
@@ -58,12 +64,14 @@ class Trial {
     for (const auto& [cut_at, right] : right_) {
       const ColorAndDepth frame = frame_with(out.faults, cut_at, right);
       out.is_blank &= has_one_color(frame.color, scene_.frame.clear_color) && has_clear_depth(scene_.frame, frame);
-      const bool is_first = cut_at == CutAt::frame_sides;
-      const auto nearer = [=](std::size_t a, std::size_t b) { return is_first ? b : std::min(a, b); };
-      std::ranges::transform(out.apart, apart_.from(frame), out.apart.begin(), nearer);
-      const FramesApart::Legal legal = apart_.legal(frame);
-      std::ranges::transform(out.legal.against, legal.against, out.legal.against.begin(), nearer);
-      std::ranges::transform(out.legal.alike, legal.alike, out.legal.alike.begin(), std::ranges::max);
+      const Lookalike here{{}, apart_.from(frame), apart_.legal(frame)};
+      for (std::size_t i = 0; i < kLooks; ++i) {  // the nearer of both cuts
+        const auto look = static_cast<Look>(i);
+        if (cut_at != CutAt::frame_sides && !(rank(here, look) < rank(out, look))) continue;
+        out.apart[look] = here.apart[look];
+        out.legal.against[look] = here.legal.against[look];
+        out.legal.drawn[look] = here.legal.drawn[look];
+      }
     }
     return out;
   }
@@ -106,12 +114,6 @@ std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
     says += (says.empty() ? "" : "; ") + f->says;
   }
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
-}
-
-// Rank of a fault: pixels that it leaves, then legal pixels that contradict it, then those that it does not draw.
-auto rank(const Lookalike& l, Look look) {
-  const std::size_t drawn = l.legal.alike[look];
-  return std::tuple(l.apart[look], l.legal.against[look], std::numeric_limits<std::size_t>::max() - drawn);
 }
 
 // Fills in `likely`, `ties` and `whole`, if a fault explains nine tenths of the pixels, and no more legal pixels
@@ -159,8 +161,8 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
   }
   constexpr std::size_t kShown = 8;
   out.by_nearness = look == kNearerColor;
-  out.text = fmt::format("explains  pixels left  fault{}\n",
-                         out.by_nearness ? " whose frame is four times as near as plumbline's" : "");
+  if (out.by_nearness) out.text = "a pixel is explained where the fault's frame is four times as near as plumbline's\n";
+  out.text += "explains  pixels left  fault\n";
   const bool is_whole = left(all.front()) == 0;  // then faults that leave pixels are not shown
   for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown))) {
     if (!is_whole || left(l) == 0) out.text += line_of(l, left(l), out.apart);
@@ -182,7 +184,7 @@ void seek_together(const Trial& trial, const std::vector<Lookalike>& alone, cons
     if (left(pair) < std::min(left(nearest), left(other))) pairs.push_back(std::move(pair));
   }
   if (pairs.empty()) return;
-  std::ranges::stable_sort(pairs, {}, left);
+  std::ranges::stable_sort(pairs, {}, [&](const Lookalike& l) { return rank(l, look); });
   const Lookalike* named = name_nearest(pairs, look, wrong, out);
   out.together = named != nullptr;
   if (named != nullptr) out.text += line_of(*named, left(*named), out.apart);

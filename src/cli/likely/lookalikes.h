@@ -21,7 +21,7 @@ struct Lookalikes {
   std::size_t apart = 0;     ///< pixels that differ from ours by the look that counts
   double codes = 1;          ///< 1 (coarse) or 1/2 (fine) code of 8 bits, for people
   bool by_color = false;     ///< by colour alone, as no fault explains nine tenths with depth
-  bool by_nearness = false;  ///< a fault explains the pixels to which its frame is four times as near as ours
+  bool by_nearness = false;  ///< pixels are explained where a fault's frame is four times as near as ours (Look)
   std::string text;          ///< lines for people, the nearest fault first
   std::string likely;  ///< "STAGE (fault NAME)": the nearest, if it explains 9/10 of `apart` (FramesApart); else empty
   bool together = false;  ///< `likely` and `ties` are of two faults each, "STAGE (fault NAME) and STAGE (fault NAME)"

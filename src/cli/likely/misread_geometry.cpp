@@ -71,7 +71,7 @@ std::vector<MisreadState> states_of_geometry() {
       {"light", "shininess_halved", "highlights have half their shininess", shines_by(0.5f), kOfLightEquation},
       {"light", "emission_ignored", "materials do not shine by themselves",
        of_materials([=](Material& m) { return reset(m.emission, black); }), kOfLightEquation},
-      {"light", "material_alpha_ignored", "lit colours have alpha 1, whatever the material's",
+      {"light", "material_alpha_ignored", "the alpha of materials' diffuse colours is taken for 1",
        of_materials([](Material& m) { return reset(m.diffuse.a, 1.0f); }), kOfLightEquation},
       {"light", "two_sides_ignored", "back faces are lit as front faces",
        [](Scene& s) { return reset(s.light_model.sides, LightModel::Sides::one); }, kOfLightEquation},

@@ -230,7 +230,7 @@ std::string convention_notes(const std::string& file) {
         "not judged: which triangle owns a sample on an edge ({})\n",
         file.empty() ? "no tie rule is declared: plumb learn"
         : conventions.tie_rule == Conventions::TieRule::any
-            ? fmt::format("tie_rule any, of {}", file)
+            ? fmt::format("{} declares no tie rule", file)
             : "a rule is settled by subpixel_bits 1 to 10, the sample on that grid; where rows count from the top, "
               "subpixel_rounding nearest");
   return out;

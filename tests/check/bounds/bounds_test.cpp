@@ -222,15 +222,15 @@ TEST(Bounds, OfPiecesAreTheLargest) {
     for_pixels(t, r, [&](int x, int y, const glm::dvec3& w) {
       if (std::min({w.x, w.y, w.z}) < 0) return;
       for (const auto arithmetic : {in_float, in_float_stepped, in_float_from_origin})
-        EXPECT_LE(depth_error(arithmetic, corners, {x + 0.5, y + 0.5}),
-                  depth_error_of_pieces(arithmetic, altitude, slope, window));
+        EXPECT_LE(depth_error(arithmetic, corners, {x + 0.5, y + 0.5}, kNoSides),
+                  depth_error_of_pieces(arithmetic, altitude, slope, window, kNoSides));
     });
   }
   EXPECT_GT(pieces, 3000u);
-  EXPECT_LT(100 * depth_error_of_pieces(in_float, 0.05, 1e-4, window),
-            depth_error_of_pieces(in_float, 0.05, 1, window));
-  EXPECT_EQ(depth_error_of_pieces(in_double, 0, 1, window), 0);
-  EXPECT_EQ(depth_error_of_pieces(in_float, 0, 1, window), kInfinite);
+  EXPECT_LT(100 * depth_error_of_pieces(in_float, 0.05, 1e-4, window, kNoSides),
+            depth_error_of_pieces(in_float, 0.05, 1, window, kNoSides));
+  EXPECT_EQ(depth_error_of_pieces(in_double, 0, 1, window, kNoSides), 0);
+  EXPECT_EQ(depth_error_of_pieces(in_float, 0, 1, window, kNoSides), kInfinite);
 }
 
 // Weights in float within blocks of 4 x 4 pixels, in triangles where the weights' numerators and their sum change by at

@@ -61,7 +61,7 @@ Ratios largest_ratios(double reach) {
       const float found = stepped(corners, static_cast<int>(inside.x), static_cast<int>(inside.y), frame);
       const double off = std::abs(static_cast<double>(found) - z);
       out.of_bound = std::max(out.of_bound, off / depth_error(in_float_stepped, corners, p, frame));
-      out.of_product = std::max(out.of_product, off / depth_error(in_float, corners, p));
+      out.of_product = std::max(out.of_product, off / depth_error(in_float, corners, p, frame));
     }
   }
   std::printf("%.3f of the bound, %.3f of that of in_float\n", out.of_bound, out.of_product);
@@ -89,6 +89,11 @@ TEST(SteppedDepths, StepInTheFrameAlone) {
   const WindowCorners corners = {{{0, -4000, 0}, {100, -4000, 0}, {50, 100, 1}}};
   const glm::dvec2 p(50.5, 50.5), frame(100, 100);
   EXPECT_LT(10 * error_by_steps(corners, p, frame), error_by_steps(corners, p, kNoSides));
+  const glm::dvec2 extent(4000, 4000);
+  const auto of_pieces = [&](glm::dvec2 sides) {
+    return depth_error_of_pieces(Conventions::DepthArithmetic::in_float_stepped, 2000, 1e-5, extent, sides);
+  };
+  EXPECT_LT(10 * of_pieces(frame), of_pieces(kNoSides));
 }
 
 }  // namespace

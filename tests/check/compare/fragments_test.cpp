@@ -192,7 +192,7 @@ TEST_F(Fragments, DepthsInFloatAreHeldToTheirBound) {
       for (const DepthFormat format : {DepthFormat::z16, DepthFormat::z24}) {
         scene.frame.depth = format;
         const double half = 0.501 * depth_step(format, 0.25),
-                     bound = std::max(by_plane + kU, depth_error(arithmetic, corners, {3.5, 3.5}));
+                     bound = std::max(by_plane + kU, depth_error(arithmetic, corners, {3.5, 3.5}, kNoSides));
         EXPECT_TRUE(passes(run(compare(arithmetic, 4), moved(half + 0.99 * bound))));
         EXPECT_TRUE(fails(run(compare(arithmetic, 4), moved(half + 1.01 * bound))));
         EXPECT_TRUE(fails(run(compare(arithmetic, 0), moved(half + 0.1 * bound)))) << "plumbline's own";
@@ -228,7 +228,7 @@ TEST_F(Fragments, AttributesInFloatAreHeldToTheirBound) {
   const double undeclared = slack(in_double, 8);
   EXPECT_GT(undeclared, 0);
   for (const auto arithmetic : {in_float, in_float_from_origin}) {
-    const double shares = shares_error(arithmetic, corners, {c.x + 0.5, c.y + 0.5});
+    const double shares = shares_error(arithmetic, corners, {c.x + 0.5, c.y + 0.5}, kNoSides);
     EXPECT_GT(slack(arithmetic, 8) - undeclared, 0.9 * shares * 2 * v[0].color.a);
     EXPECT_EQ(slack(arithmetic, 0), slack(in_double, 0)) << "plumbline's own";
   }

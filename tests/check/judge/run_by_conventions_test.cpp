@@ -151,10 +151,11 @@ TEST_F(ByConventions, AWrongRuleIsFound) {
   const C c = by_rule(C::TieRule::left_top);
   Records<double> mine = candidate.records;
   mine.covered = covered_by(C::TieRule::left_bottom).records.covered;
+  SnappedBy by = SnappedBy::conventions;
   const auto compared = [&] {
     Capture in = candidate;
     in.records = mine;
-    return compare_covered_by_rule(mine, run_by_conventions(*exact, scene, Stage::coverage, in, c).records, c);
+    return compare_covered_by_rule(mine, run_by_conventions(*exact, scene, Stage::coverage, in, c).records, c, by);
   };
   EXPECT_EQ(compared().differing, 6u) << "3 at the bottom, 3 at the top";
   mine.covered = covered_by(C::TieRule::left_top).records.covered;
@@ -163,6 +164,8 @@ TEST_F(ByConventions, AWrongRuleIsFound) {
   for (WindowTriangle<double>& t : mine.triangles) t.v[0].p_win.y += 0.5 / 256;
   EXPECT_EQ(compared().differing, 0u);
   EXPECT_EQ(compared().ambiguous, 6u);
+  by = SnappedBy::renderer;
+  EXPECT_EQ(compared().differing, 6u) << "it hands out where it snapped the corner to";
 }
 
 // Corners on lines of a grid that is rounded down: places that the renderer hands out settle the rule, others do not.
@@ -172,17 +175,17 @@ TEST_F(ByConventions, AWrongRuleIsFoundOnGridsThatAreRoundedDown) {
   c.subpixel_bits = 4;
   c.subpixel_rounding = C::Rounding::down;
   EXPECT_TRUE(knows_ties(scene, c));
-  const auto compared = [&](C::TieRule rule, Places places) {
+  const auto compared = [&](C::TieRule rule, SnappedBy snapped_by) {
     Capture in = candidate;
     in.records.covered = covered_by(rule).records.covered;
     const Capture made = run_by_conventions(*exact, scene, Stage::coverage, in, c);
-    return compare_covered_by_rule(in.records, made.records, c, places);
+    return compare_covered_by_rule(in.records, made.records, c, snapped_by);
   };
-  EXPECT_EQ(compared(C::TieRule::left_top, Places::given).differing, 0u);
-  EXPECT_EQ(compared(C::TieRule::left_top, Places::given).ambiguous, 0u);
-  EXPECT_EQ(compared(C::TieRule::left_bottom, Places::given).differing, 6u);
-  EXPECT_EQ(compared(C::TieRule::left_bottom, Places::derived).differing, 0u);
-  EXPECT_EQ(compared(C::TieRule::left_bottom, Places::derived).ambiguous, 6u);
+  EXPECT_EQ(compared(C::TieRule::left_top, SnappedBy::renderer).differing, 0u);
+  EXPECT_EQ(compared(C::TieRule::left_top, SnappedBy::renderer).ambiguous, 0u);
+  EXPECT_EQ(compared(C::TieRule::left_bottom, SnappedBy::renderer).differing, 6u);
+  EXPECT_EQ(compared(C::TieRule::left_bottom, SnappedBy::conventions).differing, 0u);
+  EXPECT_EQ(compared(C::TieRule::left_bottom, SnappedBy::conventions).ambiguous, 6u);
   c.rows = C::Rows::from_top;
   EXPECT_FALSE(knows_ties(scene, c)) << "the rounding is the rows' own";
 }

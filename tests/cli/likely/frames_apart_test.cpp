@@ -70,10 +70,10 @@ TEST(FramesApart, PassesOverLegalPixelsThatDifferFromOurs) {
   const FramesApart legal(DepthFormat::z16, given, ours);
   EXPECT_THAT(legal.from(white), ElementsAre(0, 0, 0, 0, 0, 0, 0));
   EXPECT_THAT(legal.legal(white).against, ElementsAre(1, 1, 1, 1, 0, 1, 0));
-  EXPECT_THAT(legal.legal(white).alike, ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(legal.legal(white).drawn, ElementsAre(0, 0, 0, 0, 0, 0, 0));
   EXPECT_THAT(legal.legal(ours).against, ElementsAre(0, 0, 0, 0, 0, 0, 0));
-  EXPECT_THAT(legal.legal(ours).alike, ElementsAre(0, 0, 0, 0, 0, 0, 0));
-  EXPECT_THAT(legal.legal(given).alike, ElementsAre(1, 1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(legal.legal(ours).drawn, ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(legal.legal(given).drawn, ElementsAre(1, 1, 1, 1, 0, 1, 0));
 }
 
 // A legal depth that differs from ours: the pixel counts by its colour, but for a frame that moves the depth elsewhere.
