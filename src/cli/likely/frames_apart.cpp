@@ -39,8 +39,12 @@ struct Distance {
   double depth, step;      // window z; the depth format's step there
   bool has_depth = false;  // both frames have depths
 
+  // `rgb_from_ours`: distance of the given frame from ours. Where that is beyond the threshold, too, a frame that
+  // explains it is less than half as far.
   bool is_color_beyond(const Eye& eye, float rgb_from_ours = 0) const {
-    const float most = std::max(eye.codes / 255, eye.share * rgb_from_ours);
+    const float codes = eye.codes / 255;
+    const bool is_far = rgb_from_ours > codes;
+    const float most = is_far ? std::min(std::max(codes, eye.share * rgb_from_ours), 0.49f * rgb_from_ours) : codes;
     return eye.codes < kUnseen && (!(rgb <= most) || (eye.by_alpha && !(alpha <= most)));
   }
   bool is_depth_beyond(const Eye& eye) const {

@@ -161,7 +161,8 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
   }
   constexpr std::size_t kShown = 8;
   out.by_nearness = look == kNearerColor;
-  if (out.by_nearness) out.text = "a pixel is explained where the fault's frame is four times as near as plumbline's\n";
+  if (out.by_nearness)
+    out.text = "a pixel is explained where the fault's frame is four times as near as plumbline's, or within 1.5/255\n";
   out.text += "explains  pixels left  fault\n";
   const bool is_whole = left(all.front()) == 0;  // then faults that leave pixels are not shown
   for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown))) {

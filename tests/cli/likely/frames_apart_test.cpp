@@ -44,6 +44,16 @@ TEST(FramesApart, CountsByEachLook) {
   EXPECT_THAT(apart(grey(), shifted(0, 0, 0.2)), ElementsAre(0, 0, 0, 0, 0, 0, 0));
 }
 
+// Two codes from ours, and one from a frame that lies between both.
+TEST(FramesApart, CountsFramesThatAreHalfAsFarAsOurs) {
+  const auto brighter = [](float codes) { return pixel({0.5f, 0.5f + codes * kCode, 0.5f, 0.5f}, 0.5); };
+  EXPECT_THAT(apart(brighter(2), brighter(1)), ElementsAre(1, 1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(apart(brighter(2), brighter(1.1f)), ElementsAre(0, 0, 0, 0, 0, 1, 0));
+  EXPECT_THAT(apart(brighter(4), brighter(2.6f)), ElementsAre(0, 0, 0, 0, 0, 1, 0));
+  EXPECT_THAT(apart(brighter(40), brighter(31)), ElementsAre(1, 1, 1, 0, 0, 1, 0)) << "four times as near";
+  EXPECT_THAT(apart(brighter(40), brighter(29)), ElementsAre(1, 1, 1, 1, 0, 1, 0));
+}
+
 TEST(FramesApart, CountsNoNumbersWhereALookSeesThem) {
   const GivenFrame no_red = pixel({kNaN, 0.5f, 0.5f, 0.5f}, 0.5), no_alpha = pixel({0.5f, 0.5f, 0.5f, kNaN}, 0.5),
                    no_depth = grey(kNaN);
