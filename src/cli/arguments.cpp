@@ -51,7 +51,7 @@ void add_jobs(CLI::App& command, int& jobs) {
       ->check(CLI::Range(1, kMostJobs));
 }
 
-// Clears `seeks_causes`.
+// Option that clears `seeks_causes`.
 CLI::Option* add_no_causes(CLI::App& command, bool& seeks_causes) {
   return command.add_flag_callback(
       "--no-causes", [&seeks_causes] { seeks_causes = false; },

@@ -31,7 +31,7 @@ double from_origin(const SceneJudgement& c, Stage stage) {
   return c.foreign ? tolerance(Profile::opengl, stage).factor : 0;
 }
 
-// [pixels].
+// Size of a frame [pixels].
 glm::dvec2 size_of(const FrameFormat& frame) { return {frame.width, frame.height}; }
 
 // Roundings of a stranger's colours at corners, which may be products by 1/w undone, or fixed point of 16 bits.

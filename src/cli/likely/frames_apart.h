@@ -36,7 +36,8 @@ struct GivenFrame : ColorAndDepth {
 /// Threshold of a difference. Coarse: beyond 1.5 codes of 8 bits or 1.5 steps of depth, with alpha or without, or by
 /// colour alone, whatever the depths, or by depth alone. Nearer: by colour alone, where the frame is not four times as
 /// near as ours: approximations of the renderer, as of levels of detail, count little beside a mistake. Fine: beyond
-/// half a code, or a quarter of a step, which only truncation makes.
+/// half a code, or a quarter of a step, which only truncation makes. A frame that is half as far as ours, or farther,
+/// differs by every look.
 enum Look { kCoarseByAlpha, kCoarse, kCoarseColor, kNearerColor, kCoarseDepth, kFineColor, kFineDepth };
 constexpr std::size_t kLooks = 7;
 constexpr bool is_of_color(Look look) { return look == kCoarseColor || look == kNearerColor || look == kFineColor; }

@@ -43,7 +43,7 @@ TEST(Nearness, NamesAFaultBeneathApproximations) {
   EXPECT_EQ(far.likely, "") << far.text;
 }
 
-// Depths tell that nothing was moved.
+// A frame whose depths tell that nothing was moved.
 TEST(Nearness, IsOfNoFaultThatPutsRightDepthsOff) {
   const Scene scene = suite_scene("texture/floor_nearest_mipmap_nearest");
   GivenFrame given = rippled(scene, "window.one_pixel_off", 6);
