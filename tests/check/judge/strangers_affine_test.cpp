@@ -75,5 +75,14 @@ TEST(StrangersAffine, NoColorOfACutFloorIsKnown) {
   EXPECT_FALSE(knows_none(blended, C()));
 }
 
+// A floor to the horizon, of a renderer that steps: by steps beyond the frame, nearly every colour would be legal.
+TEST(SteppedFloors, AreJudgedByStepsInTheFrame) {
+  Conventions stepped;
+  stepped.depth_arithmetic = Conventions::DepthArithmetic::in_float_stepped;
+  const check::SceneVerdict verdict = test::verdict_of("texture/floor_nearest", pipeline::make_pipeline(), stepped);
+  EXPECT_FALSE(verdict.knows_no_color);
+  EXPECT_TRUE(test::is_right(verdict));
+}
+
 }  // namespace
 }  // namespace plumbline::check
