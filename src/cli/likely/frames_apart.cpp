@@ -109,9 +109,10 @@ Apart FramesApart::from(const ColorAndDepth& frame) const {
       const Eye& eye = kEyes[look];
       const Counted counted = counted_[i][look];
       // A legal depth is none of a fault that moves depths elsewhere.
-      const bool is_moved =
-          counted == whole || (counted == by_color && is_depth_beyond_ours(frame, i, static_cast<Look>(look)));
-      const bool is_apart = there.is_color_beyond(eye, rgb_from_ours_[i]) || (is_moved && there.is_depth_beyond(eye));
+      const bool is_depth_apart =
+          there.is_depth_beyond(eye) &&
+          (counted == whole || (counted == by_color && is_depth_beyond_ours(frame, i, static_cast<Look>(look))));
+      const bool is_apart = is_depth_apart || there.is_color_beyond(eye, rgb_from_ours_[i]);
       if (counted != passed_over && is_apart) ++out[look];
     }
   }

@@ -50,7 +50,7 @@ TEST(KnownFaults, AreRoundingsThatConventionsDeclareAndTheRendererDoesNotHave) {
   }
 }
 
-// Of faults that explain all wrong pixels, one that draws the legal pixels that are unlike ours, too, comes first,
+// Order of faults that explain all wrong pixels: first one that draws the legal pixels that are unlike ours, too,
 // wherever it stands in the list.
 TEST(KnownFaults, ThatDrawLegalPixelsToo) {
   const Scene scene = suite_scene("coverage/shared_edges");
