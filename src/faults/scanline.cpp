@@ -73,18 +73,24 @@ PixelList by_spans(const Triangle& t, const PixelBounds& box) {
 // Distance from `at` on to the next centre of a pixel, or of a row [pixels].
 double ahead_of(double at) { return std::ceil(at - 0.5) + 0.5 - at; }
 
-// Edge of a triangle that begins the span of a pixel's row. Edge i lies opposite corner i.
-struct SpanStart {
+// Span of a pixel's row [pixels], and the edge that begins it. Edge i lies opposite corner i.
+struct Span {
   std::size_t edge = 3;  // none
-  double x = -std::numeric_limits<double>::infinity();
+  double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
 };
-SpanStart span_start(const Setup& s, const Pixels<float>& p) {
+Span span_of(const Setup& s, const Pixels<float>& p) {
   const Barycentric at = pipeline::barycentric(s.planes, p);
   const double value[] = {at.l0, at.l1, at.l2},
                slope[] = {-s.planes.l1.x - s.planes.l2.x, s.planes.l1.x, s.planes.l2.x};
-  SpanStart out;
+  Span out;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (slope[i] > 0 && p.x_win - value[i] / slope[i] > out.x) out = {i, p.x_win - value[i] / slope[i]};
+    const double x = p.x_win - value[i] / slope[i];
+    if (slope[i] > 0 && x > out.begin) {
+      out.edge = i;
+      out.begin = x;
+    } else if (slope[i] < 0) {
+      out.end = std::min(out.end, x);
+    }
   }
   return out;
 }
@@ -101,25 +107,37 @@ Pixels<float> moved(const Pixels<float>& p, double x, double y) { return {p.x, p
 
 // Place whose values a pixel has where spans begin with those of their end.
 Pixels<float> span_not_advanced(const Setup& s, const Pixels<float>& p) {
-  const SpanStart start = span_start(s, p);
-  return start.edge < 3 ? moved(p, -ahead_of(start.x), 0) : p;
+  const Span span = span_of(s, p);
+  return span.edge < 3 ? moved(p, -ahead_of(span.begin), 0) : p;
 }
 
 // Centre of the first pixel of the span.
 Pixels<float> first_of_span(const Setup& s, const Pixels<float>& p) {
-  const SpanStart start = span_start(s, p);
-  return start.edge < 3 ? moved(p, start.x + ahead_of(start.x) - p.x_win, 0) : p;
+  const Span span = span_of(s, p);
+  return span.edge < 3 ? moved(p, span.begin + ahead_of(span.begin) - p.x_win, 0) : p;
 }
 
 // Place whose values a pixel has where edges begin with those of their lower, or upper, corner.
 template <From from>
 Pixels<float> edge_not_advanced(const Setup& s, const Pixels<float>& p) {
-  const SpanStart start = span_start(s, p);
-  if (start.edge == 3) return p;
+  const Span span = span_of(s, p);
+  if (span.edge == 3) return p;
   const auto [lower, upper] =
-      std::minmax({y_of_corner(s, p, (start.edge + 1) % 3), y_of_corner(s, p, (start.edge + 2) % 3)});
+      std::minmax({y_of_corner(s, p, (span.edge + 1) % 3), y_of_corner(s, p, (span.edge + 2) % 3)});
   if (!std::isfinite(lower) || !std::isfinite(upper)) return p;
   return moved(p, 0, from == From::below ? -ahead_of(lower) : 1 - ahead_of(upper));
+}
+
+// Attributes with perspective at the first pixel of the span, every 16th after it, and the last; linear between.
+Color<float> in_blocks_of_16(const Setup& s, const pipeline::AttributeSetup& of, const Pixels<float>& p) {
+  const auto value_at = [&](double x) { return pipeline::mean<float>(of, weights_of(s, moved(p, x - p.x_win, 0))); };
+  const Span span = span_of(s, p);
+  const double first = span.begin + ahead_of(span.begin), last = std::floor(span.end - 0.5) + 0.5,
+               begin = first + 16 * std::floor((p.x_win - first) / 16), end = std::min(begin + 16, last);
+  if (!std::isfinite(begin) || !(begin < end)) return value_at(p.x_win);
+  const auto t = static_cast<float>((p.x_win - begin) / (end - begin));
+  const Color<float> a = value_at(begin), b = value_at(end);
+  return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), a.a + t * (b.a - a.a)};
 }
 
 Pixels<float> at_left_side(const Setup&, const Pixels<float>& p) { return moved(p, -0.5, 0); }
@@ -172,6 +190,8 @@ constexpr std::array kScanline = {
           Stage::attributes, kAttributes<span_not_advanced>},
     Fault{"attributes.one_per_span", "a span has the attributes of its first pixel", Stage::attributes,
           kAttributes<first_of_span>},
+    Fault{"attributes.in_blocks_of_16", "w divides attributes at every 16th pixel of a span; they are linear between",
+          Stage::attributes, put<&Stages::attributes, in_blocks_of_16>},
     Fault{"attributes.at_left_side", "attributes are those of the middle of pixels' left sides", Stage::attributes,
           kAttributes<at_left_side>},
 };

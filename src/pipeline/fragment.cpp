@@ -51,9 +51,8 @@ bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool passe
   return stages.stencil_test(face, alive, passes_depth, held) && passes_depth;
 }
 
-void write_fragment(const Stages& stages, const Merge& state, float z, const Color<float>& color, float color_scale,
-                    const FramePixel& to) {
-  if (state.depth_mask) *to.depth = z;
+void write_color(const Stages& stages, const Merge& state, const Color<float>& color, float color_scale,
+                 const FramePixel& to) {
   const Color<float> made = state.logic_op ? stages.logic(*state.logic_op, color, *to.color, color_scale)
                             : state.blend  ? stages.blend(*state.blend, color, *to.color, color_scale)
                                            : stages.merge(color, color_scale);

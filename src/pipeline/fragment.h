@@ -30,9 +30,9 @@ FilteredTexel<float> filtered(const Stages& stages, const TextureSetup& texture,
 bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool passes_depth, const Shaded& shaded,
                   float color_scale, std::uint8_t* held);
 
-/// Stage 11 of a fragment that is drawn: colour by the blend equation, the logic op or as it is, and depth, as far as
-/// the masks allow.
-void write_fragment(const Stages& stages, const Merge& state, float z, const Color<float>& color, float color_scale,
-                    const FramePixel& to);
+/// Stage 11 of a fragment that is drawn: the stored colour by the blend equation, the logic op or as the fragment's,
+/// in the channels of the mask.
+void write_color(const Stages& stages, const Merge& state, const Color<float>& color, float color_scale,
+                 const FramePixel& to);
 
 }  // namespace plumbline::pipeline

@@ -34,6 +34,7 @@ Stages production_stages() {
   s.depth_passes = compares<float, float>;
   s.alpha_passes = alpha_passes<float>;
   s.stencil_test = stencil_test<float>;
+  s.writes_depth = [](bool, bool drawn) { return drawn; };
   s.merge_state = [](const Merge& of_draw) { return of_draw; };
   s.merge = merge<float>;
   s.blend = blend<float>;

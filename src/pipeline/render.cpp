@@ -78,7 +78,7 @@ void draw_primitives(const PreparedDraw& d, const FrameFormat& format, const Sta
         // 6. Depth: the plane of window z.
         const float z = stages.depth(setup, centre);
         const bool passes_depth = stages.depth_passes(draw.depth_func, z, *to.depth);
-        if (!passes_depth && !draw.stencil && !records.keeps_fragments())
+        if (!passes_depth && !draw.stencil && !records.keeps_fragments() && !stages.writes_depth(false, false))
           continue;  // changes neither frame nor records
 
         // 7. Attributes: perspective-correct.
@@ -97,8 +97,10 @@ void draw_primitives(const PreparedDraw& d, const FrameFormat& format, const Sta
             passes_tests(stages, draw, triangle.front, passes_depth, shaded, formats.color_scale, to.stencil);
         records.fragment({pixel, z, &attributes, shaded.color, drawn});
 
+        if (merge_state.depth_mask && stages.writes_depth(passes_depth, drawn)) *to.depth = z;
+
         // 11. Merge: blending, logic op, masks.
-        if (drawn) write_fragment(stages, merge_state, z, shaded.color, formats.color_scale, to);
+        if (drawn) write_color(stages, merge_state, shaded.color, formats.color_scale, to);
       }
     }
   }

@@ -163,9 +163,13 @@ class OneStage {
         made.z = static_cast<float>(formats.depth_scale == 0.0 ? z : depth_code(z, formats.depth_scale));
         if (!records_.shaded.empty()) made.shaded = Color<float>(records_.shaded[i].color);
         const FramePixel to = frame.at(pixel);
+        const bool passes_depth = stages_.depth_passes(surface->draw->depth_func, made.z, *to.depth);
         made.drawn = is_drawn(i, *surface->draw, triangle, made, to);
+        const bool writes_depth =
+            stage_ == Stage::visibility ? stages_.writes_depth(passes_depth, made.drawn) : made.drawn;
         const Merge merge = stages_.merge_state(surface->draw->merge);
-        if (made.drawn) write_fragment(stages_, merge, made.z, made.shaded, formats.color_scale, to);
+        if (merge.depth_mask && writes_depth) *to.depth = made.z;
+        if (made.drawn) write_color(stages_, merge, made.shaded, formats.color_scale, to);
       }
       recorder_.fragment(made);
     }
