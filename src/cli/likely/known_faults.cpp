@@ -204,7 +204,7 @@ KnownFault not_as_declared(const FaultInfo& fault) {
           .lifts = std::string(fault.name)};
 }
 
-// Whether conventions that are declared, and not open, show that all frames are without the fault.
+// Whether the conventions that are declared, and not open, are of frames without the fault.
 bool is_contradicted(const std::string_view fault, const Conventions& conventions) {
   const bool of_rows = fault == "file.rows_reversed" || fault == "window.y_flipped",
              of_depths = fault == "file.depth_of_ndc" || fault == "file.depth_reversed";
@@ -255,8 +255,11 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
   }
   // Faults that alter alpha come before alpha that is not written.
   if (given.has_alpha) out.push_back(alpha_not_written(scene.frame));
-  std::erase_if(
-      out, [&](const KnownFault& f) { return is_of(given.right, f) || is_contradicted(f.name, given.conventions); });
+  std::erase_if(out, [&](const KnownFault& f) { return is_of(given.right, f); });
+  for (KnownFault& f : out) {
+    f.is_contradicted = is_contradicted(f.name, given.conventions);
+    if (f.is_contradicted) f.says += ", not as the conventions declare: plumb learn";
+  }
   return out;
 }
 

@@ -17,8 +17,7 @@ bool is_of(const StageSet& stages, const KnownFault& fault);
 /// Faults drawn for comparison only, not selectable by --fault; one for each name.
 std::vector<KnownFault> picture_faults();
 
-/// All that are known, less those of stages that are right (GivenFrame::right), and those that the conventions declare
-/// or contradict.
+/// All that are known, less those of stages that are right (GivenFrame::right), and those that the conventions declare.
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given);
 
 /// The scene's frame as plumbline's renderer draws it with these faults, its colours encoded as the conventions say.

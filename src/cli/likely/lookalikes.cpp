@@ -228,6 +228,10 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   std::erase_if(all, [&](const Lookalike& l) {
     return l.apart == without || l.is_blank;  // without effect on this scene; or nothing of it is drawn, and some was
   });
+  const auto is_contradicted = [](const Lookalike& l) { return l.faults.front()->is_contradicted; };
+  const bool is_explained =
+      std::ranges::any_of(all, [&](const Lookalike& l) { return !is_contradicted(l) && l.apart[kCoarse] == 0; });
+  std::erase_if(all, [&](const Lookalike& l) { return is_contradicted(l) && (is_explained || l.apart[kCoarse] > 0); });
   const auto seen_by = [&](Look look, bool in_pairs) {
     std::vector<Lookalike> nearest = all;
     // Faults by colour alone must not put depths off that are right.

@@ -1,4 +1,4 @@
-// Known faults that may explain a frame: not those that the renderer's conventions contradict.
+// Known faults that may explain a frame, and what the renderer's conventions say against them.
 #include "cli/likely/known_faults.h"
 
 #include <gtest/gtest.h>
@@ -12,24 +12,62 @@
 namespace plumbline::cli {
 namespace {
 
-bool is_known(const std::string& fault, const Conventions& conventions) {
-  GivenFrame given;
-  given.conventions = conventions;
-  const std::vector<KnownFault> known = known_faults(suite_scene("cull/both_windings"), given);
-  return std::ranges::find(known, fault, &KnownFault::name) != known.end();
+const KnownFault* find(const std::vector<KnownFault>& known, const std::string& name) {
+  const auto at = std::ranges::find(known, name, &KnownFault::name);
+  return at == known.end() ? nullptr : &*at;
 }
 
-TEST(KnownFaults, AreNoneOfRowsAndDepthRangesThatConventionsTell) {
+std::vector<KnownFault> known_by(const Conventions& conventions) {
+  GivenFrame given;
+  given.conventions = conventions;
+  return known_faults(suite_scene("cull/both_windings"), given);
+}
+
+bool is_known(const std::string& fault, const Conventions& conventions) {
+  return find(known_by(conventions), fault) != nullptr;
+}
+
+bool is_contradicted(const std::string& fault, const Conventions& conventions) {
+  return find(known_by(conventions), fault)->is_contradicted;
+}
+
+TEST(KnownFaults, OfRowsAndDepthRangesAreContradictedByConventionsThatTellThem) {
   Conventions learned, open;
   open.open = {"rows", "depth_range"};
   for (const char* fault : {"file.rows_reversed", "window.y_flipped", "file.depth_of_ndc", "file.depth_reversed"}) {
-    EXPECT_FALSE(is_known(fault, learned)) << fault;
-    EXPECT_TRUE(is_known(fault, open)) << fault;
-    EXPECT_TRUE(is_known(fault, undeclared())) << fault;
+    EXPECT_TRUE(is_contradicted(fault, learned)) << fault;
+    EXPECT_FALSE(is_contradicted(fault, open)) << fault;
+    EXPECT_FALSE(is_contradicted(fault, undeclared())) << fault;
   }
-  EXPECT_TRUE(is_known("file.mirrored", learned));
+  EXPECT_FALSE(is_contradicted("file.mirrored", learned));
   open.open = {"rows"};
-  EXPECT_FALSE(is_known("file.depth_reversed", open));
+  EXPECT_TRUE(is_contradicted("file.depth_reversed", open));
+}
+
+// A renderer whose rows were turned round since its conventions were learned.
+TEST(KnownFaults, ThatConventionsContradictAreNamedWhereTheyExplainAll) {
+  const Scene scene = suite_scene("light/emission");
+  const std::vector<KnownFault> known = known_faults(scene, {});
+  GivenFrame given{draw_with(std::vector{find(known, "file.rows_reversed")}, scene, {}), {}, {}};
+  const Lookalikes found = lookalikes(scene, given);
+  EXPECT_EQ(found.likely, "file (fault file.rows_reversed)");
+  EXPECT_TRUE(found.whole);
+  EXPECT_NE(found.text.find("not as the conventions declare: plumb learn"), std::string::npos) << found.text;
+  given.color(0, 0) = glm::vec4(0.3f, 0.6f, 0.9f, 1);
+  EXPECT_EQ(lookalikes(scene, given).likely, "") << "a pixel is left";
+  given.conventions.open = {"rows"};
+  EXPECT_EQ(lookalikes(scene, given).likely, "file (fault file.rows_reversed)") << "a pixel in a hundred may be left";
+}
+
+// Frame of one wall at window z 1/2, which is 1/2 where depths are reversed, too.
+TEST(KnownFaults, ThatConventionsContradictComeAfterAllOthers) {
+  const Scene scene = suite_scene("texture/wall_repeat");
+  const std::vector<KnownFault> known = known_faults(scene, {});
+  GivenFrame given{draw_with(std::vector{find(known, "visibility.farthest_kept")}, scene, {}), {}, {}};
+  EXPECT_EQ(lookalikes(scene, given).likely, "visibility (fault visibility.farthest_kept)");
+  EXPECT_EQ(lookalikes(scene, given).ties, std::vector<std::string>{});
+  given.conventions.open = {"depth_range"};
+  EXPECT_EQ(lookalikes(scene, given).likely, "file (fault file.depth_reversed)");
 }
 
 // A frame that is rounded to the nearest, of a renderer that is said to truncate.
