@@ -129,7 +129,7 @@ std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& siz
 /// the eye's plane in place of the near plane, and no far plane.
 std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin, bool deep) {
   const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
-  const glm::dvec2 at = glm::dvec2(c.v) + scene.sample * c.v.z;  // the frame itself is not moved
+  const glm::dvec2 at = glm::dvec2(c.v) + scene.to_frame * c.v.z;
   std::array<double, 6> inside{
       c.v.z + c.z,           c.v.z - c.z, reach.x * c.v.z - at.x, reach.x * c.v.z + at.x, reach.y * c.v.z - at.y,
       reach.y * c.v.z + at.y};
@@ -377,6 +377,7 @@ Projected project(const Scene& scene, const Conventions& conventions) {
   out.depth_clamp = scene.depth_clamp;
   out.depth = scene.frame.depth;
   out.sample = sample_offset(scene.frame);
+  out.to_frame = out.sample - (0.5 - conventions.sample);
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
   const std::vector<DrawRange> ranges = ranges_of_draws(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {

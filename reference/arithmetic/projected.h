@@ -104,6 +104,9 @@ struct Projected {
   /// Sample offset from the pixel's centre [pixels] (scene/antialias.h). The window is moved by -sample, so that a
   /// pixel's centre stands for its sample. Colours are evaluated at the true centre (to_centre()).
   glm::dvec2 sample{0};
+  /// Offset from a window point to its place in the frame of the view volume's sides [pixels]: `sample`, less the
+  /// shift of the picture by the declared sample (SceneByConventions), which does not move a renderer's own frame.
+  glm::dvec2 to_frame{0};
   std::vector<Corner> corners;
   std::vector<Triangle> triangles;
 

@@ -1,9 +1,12 @@
 #include "reference/oracle/pixel_hit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "reference/arithmetic/error_in_float.h"
+#include "reference/arithmetic/widths.h"
 #include "reference/oracle/pixel_site.h"
 
 namespace plumbline::math {
@@ -44,6 +47,28 @@ bool is_cut_off(const PixelSite& site, double delta) {
   const double z = 0.5 + glm::dot(site.t.z_plane, site.d);
   const double most = glm::length(glm::dvec2(site.t.z_plane)) * delta + corner_error_at(site, z, false);
   return z < -most || z > 1 + most;
+}
+
+/// Whether a cut may make an edge within `delta` [pixels] of the pixel's sample that the tie rule takes from the
+/// triangle: along a side of the frame or, by an exclusive rule, along a diagonal of the cut polygon.
+bool is_at_cut(const PixelSite& site, double delta) {
+  const Projected& scene = site.scene;
+  const Conventions::TieRule rule = scene.conventions.tie_rule;
+  if (!site.t.cut || rule == Conventions::TieRule::inclusive) return false;
+  const glm::dvec2 from_side =
+      0.5 * glm::dvec2(scene.width, scene.height) - glm::abs(glm::dvec2(site.d) + scene.to_frame);
+  if (from_side.x <= delta || from_side.y <= delta) return true;
+  if (rule != Conventions::TieRule::exclusive) return false;
+  const auto is_at_diagonal = [&](const std::vector<glm::dvec2>& corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (std::size_t k = i + 1; k < corners.size(); ++k) {
+        const std::array segment{corners[i], corners[k], corners[k]};
+        if (distance_to_triangle(glm::dvec2(site.d), segment) <= delta) return true;
+      }
+    }
+    return false;
+  };
+  return is_at_diagonal(site.t.outline) || is_at_diagonal(site.t.guarded.outline);
 }
 
 /// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane may
@@ -102,13 +127,14 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
-  out.hit.certain = site.inside && site.border > out.delta && !t.thin;
+  const bool at_cut = is_at_cut(site, out.delta);
+  out.hit.certain = site.inside && site.border > out.delta && !t.thin && !at_cut;
   // A side plane cuts an edge that two triangles share: each rounds the new corner, down or up, perhaps to another grid
   // point.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.may_join_group = t.facing_kept && !t.flat && !t.cut;
   set_depth(site, out);
-  out.may_join_group = out.may_join_group && !apart;
+  out.may_join_group = out.may_join_group && !apart && !at_cut;
   const PixelDepth& view = out.view;
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
     return std::nullopt;

@@ -1,8 +1,10 @@
 // Coverage that a renderer's grid, rounding and tie rule settle.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "capture/by_conventions.h"
 #include "tests/oracle/window_answers.h"
 
 namespace plumbline::math {
@@ -157,6 +159,38 @@ TEST(SettledCoverage, IsOpenBesideWhereTheRoundingChanges) {
   EXPECT_EQ(open_at(0x1p-11f), 0u);
   down.rows = C::Rows::from_top;
   EXPECT_GT(open_at(0x1p-11f), 0u) << "down and up swap in y";
+}
+
+// Legal answers of a frame that lies within a triangle.
+Legal within(const C& conventions) {
+  const Scene scene = window_scene({{glm::vec3(-16, -16, 0.5f), {128, -16, 0.5f}, {-16, 128, 0.5f}}});
+  return legal(*SceneByConventions(scene, conventions), conventions);
+}
+std::size_t open_within(const C& conventions) { return open_pixels(within(conventions)); }
+std::size_t certain_within(const C& conventions) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(within(conventions).certain.values(), [](auto n) { return n > 0; }));
+}
+
+// Samples on a side of the frame, where a renderer may cut: a rule gives them to the cut triangle, or takes them.
+TEST(SettledCoverage, IsOpenOnSidesThatCut) {
+  C at_corner = declared(C::TieRule::left_bottom);
+  EXPECT_EQ(open_within(at_corner), 0u);
+  at_corner.sample = {0, 0};
+  EXPECT_EQ(open_within(at_corner), 2u * kSize - 1) << "the first column and row";
+  at_corner.sample = {0.5, 1};
+  EXPECT_EQ(open_within(at_corner), 1u * kSize) << "the last row";
+  at_corner.sample = {0.25, 0.75};
+  EXPECT_EQ(open_within(at_corner), 0u);
+  C inclusive = declared(C::TieRule::inclusive);
+  inclusive.sample = {0, 0};
+  EXPECT_EQ(certain_within(inclusive), 1u * kSize * kSize) << "the frame's side is the triangle's, cut or not";
+}
+
+// Samples on the diagonals of the square that the sides leave of a triangle: in neither piece by an exclusive rule.
+TEST(SettledCoverage, IsOpenOnDiagonalsOfCutPolygonsByAnExclusiveRule) {
+  EXPECT_EQ(open_within(declared(C::TieRule::exclusive)), 2u * kSize);
+  EXPECT_EQ(open_within(declared(C::TieRule::exclusive, C::kFloat)), 2u * kSize);
 }
 
 }  // namespace
