@@ -45,14 +45,14 @@ inline double chord(double ratio) {
   return ratio * std::sqrt(2 / (1 + std::sqrt(1 - ratio * ratio)));
 }
 
-/// Operations of a fragment's colour on real numbers.
+/// Operations of the texture environment on real numbers.
 struct Exactly {
   static double product(double a, double b) { return a * b; }
   static double mixed(double a, double b, double share) { return a * (1 - share) + b * share; }
   static double clamped_sum(double a, double b) { return std::clamp(a + b, 0.0, 1.0); }
 };
 
-/// Operations of a fragment's colour on numbers with an error bound, by a renderer that rounds each result.
+/// Operations of the texture environment on bounded numbers, for a renderer that rounds each result.
 struct Rounding {
   Roundings roundings;
   Bounded product(Bounded a, Bounded b) const {

@@ -14,8 +14,8 @@ namespace {
 glm::dvec3 terms(const glm::dmat3& m, glm::dvec3 v) {
   return glm::abs(m[0] * v.x) + glm::abs(m[1] * v.y) + glm::abs(m[2] * v.z);
 }
-double place_error(const glm::dmat4& m,
-                   glm::dvec3 p) {  // entries 1, product 3, and 2 spare for the matrix' own product
+// Error of m p [u of its terms]: entries 1, product 3, the matrix' own product 2 spare.
+double place_error(const glm::dmat4& m, glm::dvec3 p) {
   return 6 * kFloatRounding * glm::length(terms(glm::dmat3(m), p) + glm::abs(glm::dvec3(m[3])));
 }
 
@@ -32,7 +32,7 @@ BoundedVector eye_position(const Mesh& mesh, const Matrices<double>& m, std::uin
   return {glm::dvec3(m.model_view * glm::dvec4(p, 1)), place_error(m.model_view, p)};
 }
 
-// Error: 1 u by the matrix' entries and 3 u by the sum, of its terms; 3 u by normalising, or 6 u by rescaling's
+// Error: 4 u of the product's terms (entries 1, sum 3); 3 u of the length by normalising, or 6 u by rescaling's
 // divisor.
 BoundedVector eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {
   const glm::dvec3 normal(mesh.normals[vertex]), scaled = m.normal * normal;

@@ -9,7 +9,7 @@ namespace plumbline::math {
 /// up, int(z + .5)); z32f: the nearest float.
 double in_format(DepthFormat format, double z_win);
 
-/// Whether `incoming func stored` holds (glDepthFunc).
+/// Depth test: `incoming func stored` (glDepthFunc).
 bool passes(DepthFunc func, double incoming, double stored);
 
 }  // namespace plumbline::math

@@ -24,9 +24,8 @@ WindowCorners window_corners(const Projected& scene, const Triangle& t) {
   return out;
 }
 
-// Largest error(corners) of the pieces that come near the ray d, a piece being any three corners of an outline;
-// infinite where none does, or where one may have no area. Corners may be off by `reach`: terms and area by 4 reach /
-// altitude.
+// Largest error(corners) of the pieces near the ray d, a piece being any three corners of an outline; infinite where no
+// piece is near, or one may have no area. Corners displaced by `reach`: terms and area change by 4 reach / altitude.
 template <class Error>
 double error_near(const Projected& scene, const Triangle& t, std::span<const glm::dvec2> outline, glm::dvec3 d,
                   Error error) {
@@ -54,7 +53,7 @@ template <class Error>
 double error_of_pieces(const Projected& scene, const Triangle& t, double slope, glm::dvec3 d,
                        const PieceAltitudes& altitudes, Error error) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
-  // A plane through corners that are off by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
+  // A plane through corners displaced by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
   const auto of_pieces = [&](const std::vector<glm::dvec2>& outline, double altitude, glm::dvec2 extent) {
     const double near = error_near(scene, t, outline, d, error);
     if (scene.depth_clamp) return near;

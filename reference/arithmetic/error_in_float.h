@@ -1,4 +1,4 @@
-// Error of what a renderer interpolates in float, by the arithmetic that it declares (capture/float_depth.h).
+// Error of depths and attributes interpolated in float, by the declared arithmetic (capture/float_depth.h).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,8 +11,8 @@ namespace plumbline::math {
 struct PieceAltitudes {
   double framed, guarded;
 };
-/// Error of a triangle's depth at the ray d [window z]; if the triangle is cut, of its pieces' depths, too. 0 for a
-/// renderer in double; infinite where a piece may have no area.
+/// Error of the depth of a triangle, and of its pieces if cut, at the ray d [window z]. 0 for a renderer in double;
+/// infinite where a piece may have no area.
 double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, const PieceAltitudes& altitudes);
 
 /// Relative error at the ray d of an attribute's numerator or denominator: shares_error() of the whole triangle, unless

@@ -85,7 +85,7 @@ unsigned logic(LogicOp op, unsigned s, unsigned d, unsigned all) {
   return value() & all;
 }
 
-/// Results of the op over all pairs of codes in the two intervals; all codes where the pairs are many.
+/// Hull of the op's results over all pairs of codes in two intervals; all codes where these are many.
 Interval logic(LogicOp op, Interval source, Interval stored, double largest) {
   constexpr double kMost = 64;
   if ((source.hi - source.lo + 1) * (stored.hi - stored.lo + 1) > kMost) return {0, largest};
@@ -159,9 +159,9 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
     const Interval sum = blender(c < 3 ? state.blend->rgb : state.blend->alpha, c);
     result[c] = clamped({sum.lo - 2 * half, sum.hi + 2 * half});
   }
-  // Slack of the rounding to codes: a colour in float may be one float rounding off when it is scaled to codes; a
-  // colour blended in double, a few 2^-53 of products of codes; one blended in float, 8 u of the largest code (factor
-  // and product of two terms, the stored colour, the sum, the scale).
+  // Slack of the rounding to codes. Not blended: two float roundings (colour, scale to codes). Blended in double: a few
+  // 2^-53 of products of codes. Blended in float: 8 u of the largest code (factor and product of two terms, the stored
+  // colour, the sum, the scale).
   const bool blends = state.blend && !state.logic_op;
   const double either_way = !blends ? unit_ * 0x1p-23 : blends_in_float_ ? unit_ * 0x1p-21 : 0x1p-36;
   const auto code = [&](double v) { return to_whole(rounding_, std::clamp(v, 0.0, unit_)); };

@@ -28,7 +28,7 @@ glm::vec4 low(const ColorInterval& color);
 glm::vec4 high(const ColorInterval& color);
 glm::dvec4 middle(const ColorInterval& color);
 
-/// Numbers that a renderer blends in, whose roundings decide which code a sum half way between two becomes.
+/// Numbers that a renderer blends in; their roundings decide to which code a sum half way between two goes.
 enum class BlendedIn { doubles, floats };
 
 class FrameColor {
@@ -43,9 +43,8 @@ class FrameColor {
   /// that the mask leaves, in the frame's format.
   void write(const Merge& state, const ColorInterval& color);
 
-  /// The colour that was last written to each channel, clamped to the format's range, not rounded to codes (of a logic
-  /// op's code, the middle of the colours that become the code; rgba32f: rounded to float). 1 stands for the largest
-  /// code.
+  /// Colour last written to each channel, clamped to the format's range, not rounded to codes [1: the largest code].
+  /// Logic op: the middle of the colours that round to its code. rgba32f: rounded to float.
   ColorInterval written() const;
 
  private:

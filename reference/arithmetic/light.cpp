@@ -24,7 +24,7 @@ double share_at(const Light& light, const LightSource<double>& source, glm::dvec
   if (light.kind == Light::Kind::directional) return 1;
   const double d = glm::length(vp);
   const glm::dvec3 k(light.attenuation);
-  // The divisor may be 0 for a light at the point itself, which the specification leaves open: a finite number here.
+  // The divisor may be 0 for a light at the point itself (open in the specification): limited, so that 1/0 is finite.
   const double attenuation = 1 / std::max(k[0] + k[1] * d + k[2] * d * d, 1e-38);
   if (!light.spot) return attenuation;
   const glm::dvec3 s = unit_of(source.spot_eye);
@@ -42,9 +42,8 @@ double highlight(const LightModel& model, glm::dvec3 n, glm::dvec3 l, glm::dvec3
   return 0;
 }
 
-/// x^s, at most 1e300: a normal that is not normalised may be so long that the power exceeds double, and 0 times
-/// infinity is NaN. At 1e300 any colour above 1e-200, times any share above 1e-100, exceeds 1, to which the sum is
-/// clamped.
+/// x^s, limited to 1e300: the power of a long normal may exceed double, and 0 times infinity is NaN. With 1e300, any
+/// colour above 1e-200 times any share above 1e-100 exceeds 1, to which the sum is clamped.
 double finite_power(double x, double s) { return std::min(std::pow(x, s), 1e300); }
 
 }  // namespace
@@ -74,7 +73,7 @@ glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, Lights ligh
     if (!(share > 0)) continue;
     glm::dvec3 n = n_eye;
     if (model.sides == LightModel::Sides::flip && glm::dot(n, to_eye) < 0) n = -n;
-    // After the flip, the light must be on the eye's side; else N.L and N.E had different signs.
+    // GzRender's rule: the light counts only on the eye's side (N.L and N.E of one sign).
     const bool reached = model.sides != LightModel::Sides::flip || glm::dot(n, to_eye) > 0;
     const double n_dot_vp = glm::dot(n, to_light);
     glm::dvec3 color = ambient * glm::dvec3(source.ambient);

@@ -43,8 +43,8 @@ double moved_power(double x, double s, double error) {
   return std::max(at(x + error) - at(x), at(x) - at(x - error));
 }
 
-// Share of a light that attenuation and cone leave: its value, its error [units of kError], `beyond` (the share, where
-// rounding may put the vertex on either side of the cone's border; else 0), and its error by the inputs' errors.
+// Attenuation times spot factor of a light: value, error [units of kError], `beyond` (the value where rounding may put
+// the vertex on either side of the cone's border, else 0), and the inputs' effect (`inherited`).
 struct Share {
   double value = 1, error = 0, beyond = 0;
   double inherited = 0;
@@ -86,10 +86,10 @@ Highlight highlight(const LightModel& model, const Vec3<double>& n, const Ray& r
   return {glm::dot(2 * n_dot_l * n - r.to_light, e), 4 * length * length * (r.condition + 1)};
 }
 
-// Least value of a sum of colours, by its parts that are certain.
+// Lower bound of a sum of colours, by the parts that are certain.
 class LeastLight {
  public:
-  // A part that may be below 0, as of a material colour that follows a vertex colour extrapolated beyond its triangle.
+  // A part that may be below 0: its material colour may follow a vertex colour extrapolated beyond its triangle.
   void add(const Vec3<double>& color) { sum_ += glm::min(color, Vec3<double>(0)); }
   void add_certain(const Vec3<double>& color) { sum_ += color; }
   bool is_saturated(glm::length_t channel) const { return sum_[channel] >= 1; }

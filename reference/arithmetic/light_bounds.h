@@ -28,7 +28,7 @@ struct LightBounds {
   Vec3<double> jump{0};
   /// Error that the inputs' errors (LightInputs) cause; not part of `magnitude`.
   Vec3<double> inherited{0};
-  /// Whether the specular term is 0 while its power may overflow float. A renderer that does not limit the power then
+  /// Channels whose specular term is 0 while its power may overflow float: a renderer that does not limit the power
   /// computes 0 times infinity.
   glm::bvec3 overflows{false};
 };

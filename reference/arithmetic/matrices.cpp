@@ -14,7 +14,7 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-// Distance of a near or far plane, which games101 gives as a z coordinate.
+// Distance of a near or far plane; games101 gives a z coordinate instead.
 double distance_to(const Scene& scene, double near_or_far) {
   return scene.dialect == Dialect::games101 ? -near_or_far : near_or_far;
 }
@@ -34,8 +34,7 @@ glm::dmat4 opengl_projection(const Scene& scene) {
                  },
                  [](const Frustum& f) { return glm::frustum(f.left, f.right, f.bottom, f.top, f.near, f.far); },
                  [](const ViewPlane& v) {
-                   // Infinite pyramid that begins at the view plane, at distance d, where X_pi's w is 1 and OpenGL's is
-                   // d.
+                   // Infinite pyramid from the view plane on, at distance d, where w is 1 by X_pi and d by OpenGL.
                    const double half = glm::radians(v.fov_degrees) / 2, d = std::cos(half) / std::sin(half);
                    return glm::infinitePerspective(2 * half, 1.0, d) / d;
                  },
@@ -103,7 +102,7 @@ glm::dmat4 view_matrix(const Scene& scene) {
            glm::translate(turned, -eye);
   }
   if (const auto* p = std::get_if<Pinhole>(&scene.projection)) {
-    // The eye is c before the camera's center, in whose direction it looks.
+    // The eye is at distance c before the camera's center, and looks at it.
     const glm::dmat4 turned = glm::lookAt(glm::dvec3(0), center - eye, up);
     return glm::translate(glm::dmat4(1.0), {0, 0, -p->c}) * glm::translate(turned, -center);
   }

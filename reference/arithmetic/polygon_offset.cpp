@@ -1,7 +1,6 @@
-// The slope g of a plane through corners p_i of depth z_i obeys g . (p_i - p_j) = z_i - z_j. Corners that are moved by
-// up to d, with depths up to e off, change it by some dg with |dg . (p_i - p_j)| <= 2 (e + |g| d) along every side; a
-// linear function that varies by no more than that over the triangle has no larger slope than that over its smallest
-// altitude.
+// Slope g of a plane through corners p_i of depth z_i: g . (p_i - p_j) = z_i - z_j. Corners displaced by up to d, with
+// depths up to e off, change g by some dg with |dg . (p_i - p_j)| <= 2 (e + |g| d) along every side. A linear function
+// that varies by at most v over a triangle has a slope of at most v over the smallest altitude.
 #include "reference/arithmetic/polygon_offset.h"
 
 #include <algorithm>
@@ -30,7 +29,7 @@ OffsetBounds polygon_offset(const Projected& scene, const Triangle& t, const Pol
   if (offset == PolygonOffset{}) return {};
   if (t.flat) return {0, kInfinity};
   const double scale = range_scale(t), factor = offset.factor, units = offset.units;
-  double z_ndc = 1;  // largest; without a near and a far plane, a piece's corner may lie beyond them
+  double z_ndc = 1;  // largest |z_ndc|; under depth clamp a piece's corner may exceed 1
   if (scene.depth_clamp) {
     z_ndc = t.ahead ? std::max({1.0, std::abs(2 * t.z_min - 1), std::abs(2 * t.z_max - 1)})
                     : std::max(1.0, t.size.z / t.w_min);

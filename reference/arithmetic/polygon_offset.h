@@ -5,8 +5,8 @@
 
 namespace plumbline::math {
 
-/// r of OpenGL 4.5, section 14.6.5 [window z]. For float depths, the distance from the last float at or below
-/// `largest_z` to the next one. For codes OpenGL leaves it open: as many codes as the conventions' offset_unit.
+/// r of OpenGL 4.5, section 14.6.5 [window z]. Float depths: distance from the last float at or below `largest_z` to
+/// the next one, or the conventions' float_offset_unit. Codes (OpenGL leaves r open): offset_unit codes.
 long double offset_unit(DepthFormat format, const Conventions& conventions, double largest_z);
 
 /// Offset of a triangle whose other members project() has set. `half`: infinite where the triangle has no reliable

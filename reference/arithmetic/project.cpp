@@ -23,12 +23,12 @@ namespace {
 
 // Bounds on the error of float arithmetic against double. u = 2^-24; A = |P| |M| |p|, component by component.
 //   rounding M's and P's entries to float: 1 + 1; the product P M, four products and three sums: 4 (of its terms'
-//   sizes); times p: 4.  So a clip coordinate in float is within 10 u A of the one in double (P (M p) comes to the
-//   same count), and dividing by w and multiplying by the scale adds 2 u |X/W| <= 2 u A_X / W. With 2 spare: 14.
-//   A cut vertex a + t (b - a) adds 3 u of its terms per cut, and no edge is cut by more than three planes in a row
-//   between two of its mesh vertices: 9, so 24. A convex combination of vertices, each within 15 u A of its place, is
-//   within 15 u of the same combination of their A; what cuts add is of max A, for near b they round b - a of a far a.
-//   An error of t moves a cut vertex along the edge: so cut edges obey the same bound.
+//   sizes); times p: 4.  So a clip coordinate in float is within 10 u A of the one in double (P (M p): the same count),
+//   and dividing by w and multiplying by the scale adds 2 u |X/W| <= 2 u A_X / W. With 2 spare: 14.
+//   A cut vertex a + t (b - a) adds 3 u of its terms per cut, and at most three planes in a row cut an edge between two
+//   mesh vertices: 9, with 1 spare 10, so 24. A convex combination of vertices, each within 14 u A of its place, is
+//   within 14 u of the same combination of their A; a cut's errors are of the largest A, as near b rounds b - a of a
+//   far a. An error of t moves a cut vertex along the edge: so cut edges obey the same bound.
 // A point (X, Y, W) = w d that moves by (eX, eY, eW) moves in the window by (eX - x eW) / w, to first order.
 constexpr double kRoundingsUncut = 14;
 constexpr double kRoundingsOfCuts = 10;
@@ -125,8 +125,8 @@ std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& siz
   return {z, z, x, x, y, y};
 }
 
-/// A corner's distances inside the view volume's planes, near and far first, each plus its error in float. `deep`: with
-/// the eye's plane in place of the near plane, and no far plane.
+/// A corner's signed distances from the view volume's planes (inside: positive; near and far first), each plus its
+/// error in float. `deep`: the eye's plane for the near plane, no far plane.
 std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin, bool deep) {
   const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
   const glm::dvec2 at = glm::dvec2(c.v) + scene.to_frame * c.v.z;
@@ -201,10 +201,10 @@ void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
 /// Sets the displacements of the triangle's points at a pixel beyond first order: `reach`, `growth` and `loose`.
 /// - An error of e in w multiplies the displacement of a quotient by w / (w - e); from e = w/2 on, beside the eye, the
 ///   point may be anywhere.
-/// - A point is displaced by C / w (float_displacement()), where C is a mean of the corners' C_i, weighted by b_i, plus
-///   a constant: b_i / w = e_i / det and 1/w are affine in the window. With g its slope, the displacement grows by up
-///   to g s over s pixels from the point nearest to a pixel. Such a point reaches the pixel if s <= moved + g s:
-///   1 / (1 - g) times as far. From g = 1/2 on the largest displacement is taken for all.
+/// - A point is displaced by C / w (float_displacement()), C the mean of the corners' C_i by b_i, plus a constant;
+///   b_i / w = e_i / det and 1/w are affine in the window. With g the displacement's slope, it grows by up to g s over
+///   s pixels from the point nearest to a pixel. A point at s reaches the pixel if s <= moved + g s: from 1 / (1 - g)
+///   times as far. From g = 1/2 on the largest displacement is taken for all.
 void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   const double of_w = kFloatRounding * t.roundings * t.size.w / t.w_min;
   const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height);
@@ -229,7 +229,7 @@ double of_edges(const Projected& scene, std::span<const glm::dvec2> outline) {
   return edge_displacement(scene.conventions.depth_arithmetic, high.y - low.y, scene.width);
 }
 
-/// Sets `guarded`: the pieces of a renderer that leaves the sides to the raster.
+/// Sets `guarded`: the pieces of a renderer that does not clip at the sides.
 void set_guarded(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   bool cut = false;
   const Polygon part = part_inside(scene, c, 2, cut);
@@ -276,7 +276,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   t.w_min = kInfinity;
   glm::dvec3 farthest(0, 0, 1);
   for (std::size_t i = 0; i < part.count; ++i) {
-    // A near plane closer to the eye than the error of w lets w reach 0: then the triangle may be anywhere.
+    // A near plane closer to the eye than w's error lets w reach 0: then the triangle may be anywhere.
     const double w = std::max(part.v[i].z, kFloatRounding * t.size.w);
     t.w_min = std::min(t.w_min, w);
     t.w_max = std::max(t.w_max, w);

@@ -8,7 +8,7 @@
 
 namespace plumbline::math {
 
-/// Projection of the scene as a renderer of these conventions draws it. `scene`: already altered by the conventions
+/// Projection of the scene for a renderer of these conventions. `scene`: already altered by them
 /// (capture/by_conventions.h).
 Projected project(const Scene& scene, const Conventions& conventions = {});
 
@@ -21,8 +21,8 @@ glm::dvec2 float_displacement(const Projected& scene, const glm::dvec4& error, g
 /// Displacement of a corner by float arithmetic, per axis [pixels]; infinite where the corner is beside or behind the
 /// eye.
 glm::dvec2 corner_displacement(const Projected& scene, const Corner& corner);
-/// delta: the length of float_displacement() by the largest error of any of the triangle's points, plus the
-/// displacement by snapping [pixels].
+/// delta [pixels]: displacement by snapping, plus the length of float_displacement() by the largest error of any of the
+/// triangle's points.
 double displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
 
 /// A piece of a segment a + t (b - a), t in [from, to]; empty if from > to.

@@ -1,9 +1,9 @@
-// A scene's triangles in homogeneous window coordinates, in double, with bounds on their errors in float arithmetic.
+// A scene's triangles in homogeneous window coordinates, in double, with error bounds for float arithmetic.
 //
-// A vertex is v = (X, Y, W) = (x_clip width/2, y_clip height/2, w_clip), and the point (x, y) of the window, counted in
-// pixels from its *middle*, is the ray d = (x, y, 1) from the origin: the triangle v0 v1 v2 is at the point where
-// d w = b0 v0 + b1 v1 + b2 v2 with b_i >= 0, sum b_i = 1 (Olano and Greer, "Triangle Scan Conversion using 2D
-// Homogeneous Coordinates", 1997). No division by w, so that triangles across the eye's plane need no cutting:
+// Vertex: v = (X, Y, W) = (x_clip width/2, y_clip height/2, w_clip). Window point (x, y) [pixels from the window's
+// *middle*]: the ray d = (x, y, 1) from the origin. The triangle v0 v1 v2 is at that point where d w = b0 v0 + b1 v1 +
+// b2 v2 with b_i >= 0, sum b_i = 1 (Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates",
+// 1997). Nothing is divided by w, so that triangles across the eye's plane need no cutting:
 //   n_i = v_j x v_k (i, j, k cyclic)   e_i = n_i . d   det = v0 . n0   b_i = e_i / sum e   1/w = sum e / det
 //   z_ndc = sum z_i e_i / det, affine in (x, y);  det > 0 iff counter-clockwise in the window, y up.
 #pragma once
@@ -70,14 +70,14 @@ struct Triangle {
   double altitude = 0;              ///< [pixels] least altitude of all pieces for which a renderer may set up a plane
   /// Corners of a cut triangle's visible part, any three of which may be a piece's [pixels from the window's middle].
   std::vector<glm::dvec2> outline;
-  /// Pieces cut at the near and far planes alone, where these may cut: corners may lie far outside the window.
+  /// Pieces cut at the near and far planes alone, where these may cut; corners may lie far outside the window.
   struct Guarded {
     double altitude = 0;              ///< as above
     std::vector<glm::dvec2> outline;  ///< as above
-    glm::dvec2 extent{0};             ///< [pixels] twice their corners' largest distance from its middle
+    glm::dvec2 extent{0};             ///< [pixels] twice their corners' largest |x|, |y| from its middle
     double w_min = 0;                 ///< of their corners
   } guarded;
-  double stepped = 0;  ///< [pixels] displacement of its edges along x where x is added up from row to row in float
+  double stepped = 0;  ///< [pixels] displacement of its edges along x where float steps x from row to row
   double reach = 0;    ///< [pixels] largest displacement of a vertex over its visible part
   double growth = 1;   ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
 };

@@ -15,8 +15,8 @@ Plane<glm::vec4> mean_colors(const FrameFormat& frame, const std::vector<Plane<g
 /// mean_colors() in the frame's format: rounded to the nearest code, halves up.
 Plane<glm::vec4> resolved_colors(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples);
 
-/// Capture of an antialiased scene (renderer.h), from the renderer's captures of its passes: samples, resolved colour,
-/// and depth of the first sample. Throws OverBudget, and what the renderer's capture() throws.
+/// Capture of an antialiased scene (renderer.h) from the renderer's captures of its passes: samples, resolved colour,
+/// depth of the first sample. Throws OverBudget, and the exceptions of the renderer's capture().
 Capture capture_resolved(Renderer& renderer, const Scene& scene, const Request& request);
 
 }  // namespace plumbline::math

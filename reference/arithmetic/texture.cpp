@@ -261,8 +261,8 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
   const bool is_magnified = lambda_lo <= lambda_hi && lambda_hi <= magnified_up_to(texture.sampler, rules);
   if (depends_on_lambda(texture.sampler) && !is_magnified) {
     add(lambda_hi);
-    // Level and filter change at multiples of a half of lambda only; between these the texel is linear in lambda. A
-    // little beyond each multiple the next choice is made.
+    // Level and filter change only at multiples of 1/2 of lambda, between which the texel is linear in lambda. The
+    // choice just beyond a multiple is sampled, too.
     constexpr double kMost = 16, kBeyond = 1e-9;
     for (double at = std::ceil(2 * std::max(lambda_lo, -1.0)) / 2; at <= std::min(lambda_hi, kMost); at += 0.5) {
       add(at);
@@ -287,14 +287,14 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
 
 namespace {
 
-/// Whether the slopes hold for errors of `bound` in s and t: less than half a texel of each linearly filtered level.
+/// True if `bound` is within the slopes' range: below half a texel, in s and t, of each linearly filtered level.
 bool within_slopes(const Texture& texture, const TexelRange& range, glm::dvec2 bound) {
   if (range.last_linear < range.first_linear) return std::isfinite(bound.s + bound.t);
   const TextureLevel& finest = texture.levels[static_cast<std::size_t>(range.first_linear)];
   return bound.s * finest.width < 0.5 && bound.t * finest.height < 0.5;
 }
 
-/// Whether the nearest texel is open: another one lies within the bound of s or of t.
+/// True if another texel, within the bound of s or of t, may be the nearest.
 bool is_open(const TexelRange& range, glm::dvec2 bound) {
   const auto known = [&](glm::length_t k) { return bound[k] == 0 || bound[k] < range.gap[k]; };
   return !(known(0) && known(1));

@@ -39,8 +39,8 @@ glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda, 
 /// Whether filtered_texel() depends on lambda.
 bool depends_on_lambda(const Sampler& sampler);
 
-/// Range of filtered_texel() over lambda in [lambda_lo, lambda_hi], widened by the error of weights of few bits, with
-/// its slopes and gaps around (s, t).
+/// Range of filtered_texel() over lambda in [lambda_lo, lambda_hi], with slopes and gaps around (s, t); widened by the
+/// error of weights of `weight_bits`.
 TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi,
                        const LevelRules& rules = {});
 

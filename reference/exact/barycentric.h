@@ -15,8 +15,8 @@ namespace plumbline::exact {
 /// for a point both are 0.
 ///
 /// The set-up has 113 bits, so that a sliver's area and gradients are right. Weights are evaluated relative to the
-/// first corner, in long double, or in 113 bits where their terms are large (a sliver, whose weights are small
-/// differences of large terms): their error is at most 2^-52 of the largest weight.
+/// first corner in long double, or in 113 bits where they are small differences of large terms (slivers): their error
+/// is at most 2^-52 of the largest weight.
 class Barycentric {
  public:
   /// Weights of a triangle with a snapped area, a line or a point; of a triangle without a snapped area they are NaN.

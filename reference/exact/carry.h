@@ -1,4 +1,4 @@
-// Varyings (capture/varying.h) in stages 2, 3, 4 and 7, each computed as a second colour. All functions throw
+// Varyings (capture/varying.h) in stages 2, 3, 4 and 7, each computed in a colour's place. All functions throw
 // std::invalid_argument where the records do not fit the scene or each other. `in` and `out` may be one object.
 #pragma once
 

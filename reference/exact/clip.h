@@ -16,20 +16,19 @@ inline constexpr int kSides = 4;  ///< number without near and far, which do not
 /// >= 0. Throws std::invalid_argument for an index beyond [0, kPlanes).
 glm::dvec4 clip_plane(int index);
 
-/// The part of a triangle inside the first `planes` clip planes, by Sutherland and Hodgman: no vertices, or 3 to 9, in
-/// the triangle's winding. Only planes that one of its corners violates cut it. A cut is computed from the inside end
-/// of the edge, so that triangles that share the edge share the cut. Colours are interpolated by the cut's parameter.
+/// Part of a triangle inside the first `planes` clip planes, by Sutherland and Hodgman: no vertices, or 3 to 9, in the
+/// triangle's winding. Only planes that a corner violates cut it. Cuts are computed from the edge's inside end, so that
+/// triangles that share the edge share the cut. Colours are interpolated by the cut's parameter.
 std::vector<ClipVertex<double>> clip_triangle(const std::array<ClipVertex<double>, 3>& corners, int planes = kPlanes);
 
-/// The part of a line inside the first `planes` clip planes: no vertices, or two. It is the interval of all t in [0,1]
-/// for which a + t (b - a) is inside.
+/// Part of a line inside the first `planes` clip planes, the t in [0,1] for which a + t (b - a) is inside: no vertices,
+/// or two.
 std::vector<ClipVertex<double>> clip_line(const ClipVertex<double>& a, const ClipVertex<double>& b,
                                           int planes = kPlanes);
 
-/// Stage 3: the polygons of all primitives, in draw order; a point is kept or dropped. Primitives with a corner that is
-/// not finite, and those outside, leave no polygon. Under flat shading, if `flat_applies` (false for varyings that are
-/// no lit colours), all corners have the provoking vertex' colour. Throws std::invalid_argument where the records do
-/// not fit the scene.
+/// Stage 3: polygons of all primitives, in draw order; a point is kept or dropped. Primitives outside, or with a corner
+/// that is not finite, leave no polygon. Under flat shading, if `flat_applies` (lit colours alone), all corners have
+/// the provoking vertex' colour. Throws std::invalid_argument where the records do not fit the scene.
 ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Vertex<double>>& vertices,
                                      const std::vector<Lit<double>>& lit, bool flat_applies = true);
 

@@ -38,8 +38,8 @@ std::array<glm::ivec2, 3> from_sample(std::array<glm::ivec2, 3> snapped, const F
   return snapped;
 }
 
-/// Whether the snapped corners' winding is the recorded facing, which decides the edges' inner sides: if not, no centre
-/// is on the inner side of all three. (A wrong facing is stage 4's error.)
+/// True if the snapped corners' winding is the recorded facing, which decides the edges' inner sides: else no centre is
+/// on the inner side of all three. (A wrong facing is stage 4's error.)
 bool faces_as_recorded(const WindowTriangle<double>& triangle) {
   return facing(snapped_corners(triangle)) == (triangle.front ? 1 : -1);
 }
@@ -122,8 +122,8 @@ void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& 
 
 namespace {
 
-/// Upper bound of a line's or point's pixels. A line has at most one pixel, times its width, in each column (y-major:
-/// row) that it passes, and one more.
+/// Upper bound of a line's or point's pixels. A line has at most `width` pixels in each column (y-major: row) that it
+/// passes, and in one more.
 std::size_t most_pixels(const WindowTriangle<double>& line_or_point, int longest) {
   const glm::i64vec2 d = glm::abs(glm::i64vec2(line_or_point.v[1].snapped) - glm::i64vec2(line_or_point.v[0].snapped));
   const std::size_t width = line_or_point.width;

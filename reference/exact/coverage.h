@@ -16,7 +16,7 @@
 
 namespace plumbline::exact {
 
-/// Whether a sample exactly on an edge is inside, from the inward gradient of E.
+/// Tie rule left_bottom: true if a sample on an edge is inside. Input: E's inward gradient.
 bool tie_is_in(std::int64_t de_dx, std::int64_t de_dy);
 
 /// Pixels [begin, end) of a row.
@@ -24,7 +24,7 @@ struct Span {
   int begin, end;
 };
 
-/// The pixels that a triangle of snapped corners covers within a frame, row by row: a convex shape's row is one span.
+/// Pixels of a frame that a triangle of snapped corners covers, a span per row.
 class CoveredRows {
  public:
   /// Pixels of a width x height frame, sampled at centres. Corners of either winding; no rows where the area is zero.
@@ -51,10 +51,10 @@ std::size_t covered_count(const CoveredRows& rows);
 /// Appends one entry per pixel covered, by y, then x.
 void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector<Covered>& out);
 
-/// Appends the pixels of a triangle, a line (line_coverage.h) or a point, within the draw's scissor box, as those of
-/// record number `triangle`. A triangle whose recorded facing is not that of its corners covers none. A point covers
-/// the pixels whose centres are in a square of its size about (floor x + 1/2, floor y + 1/2), or, where the size is
-/// even, about (floor(x + 1/2), floor(y + 1/2)), (x, y) its snapped window position (OpenGL 2.1, section 3.3).
+/// Appends the pixels of a triangle, a line (line_coverage.h) or a point within the draw's scissor box, under record
+/// number `triangle`. A triangle whose recorded facing contradicts its corners covers none. A point at the snapped
+/// window position (x, y) covers the pixels with centres in a square of its size about (floor x + 1/2, floor y + 1/2),
+/// or, for even sizes, about (floor(x + 1/2), floor(y + 1/2)) (OpenGL 2.1, section 3.3).
 void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
                     std::uint32_t triangle, std::vector<Covered>& out);
 

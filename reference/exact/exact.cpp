@@ -84,7 +84,7 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in, con
   return out;
 }
 
-/// count, id_sum, id and shaded, cleared; depth, stencil and colour are taken from TestedFrame and ColorBuffer.
+/// Cleared planes count, id_sum, id and shaded; TestedFrame and ColorBuffer hold depth, stencil and colour.
 Planes cleared_planes(const FrameFormat& frame) {
   Planes planes;
   planes.count = Plane<std::uint32_t>(frame.width, frame.height);
@@ -129,8 +129,8 @@ Fours fours_at(const Scene& scene, const Draw& draw, const Records<double>& wind
   return out;
 }
 
-/// Stages 5 to 11 of the triangles of `window`, under its lights: planes, and records of the selected fragments.
-/// Triangle by triangle, so that fragments that are not selected need no memory.
+/// Stages 5 to 11 of the triangles and lights of `window`: planes, and records of the selected fragments. Triangle by
+/// triangle, so that other fragments need no memory.
 void draw_triangles(const Scene& scene, const Records<double>& window, const Selection& selection, Capture& out) {
   const FrameFormat& frame = scene.frame;
   const DrawOf draw_of(scene);

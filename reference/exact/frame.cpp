@@ -12,8 +12,8 @@ using math::in_format;
 
 namespace {
 
-/// Whether `a func b` holds. CompareFunc's values, in OpenGL's order, are bit sets of the relations that pass: less
-/// (1), equal (2), greater (4). NaN passes `always` only.
+/// Comparison `a func b`. CompareFunc's values, in OpenGL's order, are bit sets of the relations that pass: less (1),
+/// equal (2), greater (4). NaN passes `always` only.
 bool passes(CompareFunc func, double a, double b) {
   const int relation = a < b ? 1 : a == b ? 2 : a > b ? 4 : 0;
   return func == CompareFunc::always || (static_cast<int>(func) & relation) != 0;
@@ -75,7 +75,7 @@ glm::vec4 kept_color(ColorFormat format, glm::dvec4 color) {
   return glm::vec4(format == ColorFormat::rgba32f ? color : glm::clamp(color, 0.0, 1.0));
 }
 
-/// Fragments that passed, as far as the winners `id` tell: those of the winning primitive at each pixel.
+/// Fragments that passed, by the winners `id`: those of the winning primitive at each pixel.
 std::vector<Drawn> drawn_by_winners(const Scene& scene, const Records<double>& records, const Plane<std::int32_t>& id) {
   const FrameFormat& frame = scene.frame;
   require_size("planes.id", id.size(), static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
@@ -84,7 +84,7 @@ std::vector<Drawn> drawn_by_winners(const Scene& scene, const Records<double>& r
   Plane<std::uint8_t> written(frame.width, frame.height, 0);
   for_each_fragment(scene, records, [&](std::size_t i, const Fragment& f, std::int32_t primitive) {
     if (id(f.x, f.y) != primitive) return;
-    // A cut primitive may have two triangles at a pixel: the later one has to pass the earlier.
+    // Of a cut primitive's two triangles at a pixel, the later must pass the earlier's depth.
     Draw known = f.draw;
     known.stencil.reset();  // the stored stencil value is not known
     if (written(f.x, f.y) == 0) known.depth_func = DepthFunc::always;

@@ -24,9 +24,9 @@ struct Fragment {
 class TestedFrame {
  public:
   explicit TestedFrame(const FrameFormat& frame);
-  /// Alpha, stencil and depth test, in that order (OpenGL 2.1 spec 4.1.4 to 4.1.6); returns whether the fragment
-  /// passes. A fragment that passes stores its depth, if the draw writes depth. A fragment that passes the alpha test
-  /// updates the stencil value, whether or not it passes the other two.
+  /// Alpha, stencil and depth test, in that order (OpenGL 2.1 spec 4.1.4 to 4.1.6); true: the fragment passes all, and
+  /// stores its depth if the draw writes depth. A fragment that passes the alpha test updates the stencil value, also
+  /// where it fails the other two.
   bool test(const Fragment& fragment);
   /// Stores the depth of a fragment that is known to pass, if the draw writes depth.
   void store(const Fragment& fragment);
@@ -40,8 +40,8 @@ class TestedFrame {
   Plane<std::uint8_t> stencil_{};
 };
 
-/// The colour plane, constructed with the clear colour. Colours are clamped to [0,1] where the frame has codes; the
-/// last colour written to a pixel is not rounded to codes.
+/// The colour plane, constructed with the clear colour. Where the frame has codes, colours are clamped to [0,1]; the
+/// last one written to a pixel is not rounded to codes.
 class ColorBuffer {
  public:
   explicit ColorBuffer(const Scene& scene);

@@ -16,7 +16,7 @@ void require_size(std::string_view what, std::size_t is, std::size_t expected);
 /// Throws std::invalid_argument, naming `what`, unless `is` < `end`.
 void require_index(std::string_view what, std::size_t is, std::size_t end);
 
-/// Look-up of the draw that a primitive belongs to. The scene has to outlive it.
+/// Look-up of a primitive's draw. The scene must outlive the look-up.
 class DrawOf {
  public:
   explicit DrawOf(const Scene& scene);

@@ -44,7 +44,7 @@ bool operator<(const Parameter& s, const Parameter& t) { return s.at * t.over < 
 bool produces(glm::i64vec2 a, glm::i64vec2 b, glm::i64vec2 pixel) {
   if (contains(b, pixel)) return false;
   if (contains(a, pixel)) return true;
-  // Neither end is inside, so the part inside is an open interval: not empty if enter < leave.
+  // With neither end inside, the part inside is an open interval, not empty if enter < leave.
   Parameter enter{kZero, 1}, leave{{1, 0, 0}, 1};
   for (const auto& [sx, sy] : kDiamondSides) {
     const Infinitesimal at_a = inside(a, pixel, sx, sy);
@@ -63,7 +63,7 @@ std::vector<glm::ivec2> line_pixels(glm::i64vec2 a, glm::i64vec2 b, int width, i
     return static_cast<int>(std::clamp<std::int64_t>(y / 256, -(1 << 30), 1 << 30));
   };
   for (int j = std::max(0, row_of(low) - 2); j <= std::min(height - 1, row_of(high) + 2); ++j) {
-    // The columns that the segment passes within a pixel of the row, and two more on either side: a superset.
+    // Superset of the columns that the segment passes within a row of this one: two more on either side.
     const auto x_at = [&](double y) {
       const double t = a.y == b.y ? 0 : (y - static_cast<double>(a.y)) / static_cast<double>(b.y - a.y);
       return static_cast<double>(a.x) + std::clamp(t, 0.0, 1.0) * static_cast<double>(b.x - a.x);
@@ -81,7 +81,7 @@ std::vector<glm::ivec2> line_pixels(glm::i64vec2 a, glm::i64vec2 b, int width, i
 
 std::vector<glm::ivec2> wide_line_pixels(glm::i64vec2 a, glm::i64vec2 b, int w, int width, int height) {
   const bool x_major = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
-  // In a frame that begins w - 1 pixels earlier, the lowest fragment of a column is inside where any of the column is.
+  // A frame that begins w - 1 pixels earlier holds the lowest fragment of each column of which any fragment is visible.
   const glm::i64vec2 minor = x_major ? glm::i64vec2(0, 1) : glm::i64vec2(1, 0);
   const glm::i64vec2 moved = minor * std::int64_t{256 * (w - 1) - 128 * (w - 1)};
   const glm::ivec2 earlier = glm::ivec2(minor) * (w - 1);

@@ -1,11 +1,11 @@
 // OpenGL's diamond-exit rule for lines (OpenGL 2.1, section 3.4.1), by its definition: each pixel's diamond is
 // intersected with the segment.
 //
-// The diamond R_f = {|x - xf| + |y - yf| < 1/2} is the intersection of four open half planes. The segment's ends are p
-// - (e, e^2); "e is chosen to be so small" that any smaller e gives the same fragments: so e is a symbol, and numbers
-// are polynomials c0 + c1 e + c2 e^2, compared by the first coefficient that differs. No end is ever on a border. In
-// terms of unmoved ends, a diamond owns the part of its border that the move brings inside: the points with x > xf,
-// that is the right corner and the open right sides; not the top and bottom corners (|-e| grows), not the left sides.
+// The diamond R_f = {|x - xf| + |y - yf| < 1/2} is the intersection of four open half planes. The segment's ends are
+// p - (e, e^2), with e so small that any smaller e gives the same fragments: e is a symbol, and numbers are polynomials
+// c0 + c1 e + c2 e^2, compared by the first coefficient that differs. No end is on a border. In terms of unmoved ends,
+// a diamond owns the part of its border with x > xf, which the move brings inside: the right corner and the open right
+// sides; not the top and bottom corners, not the left sides.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace plumbline::exact {
 
-/// Whether the segment from `a` to `b` produces the pixel: it meets the pixel's diamond, and does not end in it. Ends
-/// in 1/256 pixel, pixel (i, j)'s centre at (256 i, 256 j), within +-2^40.
+/// Diamond-exit rule: true if the segment from `a` to `b` meets the pixel's diamond and does not end in it. Ends
+/// [1/256 pixel, pixel (i, j)'s centre at (256 i, 256 j), within +-2^40].
 bool produces(glm::i64vec2 a, glm::i64vec2 b, glm::i64vec2 pixel);
 
 /// All pixels within `width` x `height` of a line `w` pixels wide (section 3.4.2), by y, then x: the segment is moved

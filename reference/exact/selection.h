@@ -14,9 +14,9 @@ class Selection {
  public:
   Selection(const Scene& scene, const Request& request);
 
-  /// Whether records of the primitive are requested.
+  /// True if records of the primitive are requested.
   bool primitive(std::uint32_t number) const;
-  /// fragments(): whether records of stages 5 to 10 are requested at all. pixel(): whether those of this pixel are.
+  /// True if records of stages 5 to 10 are requested: fragments() at all, pixel() at this pixel.
   bool fragments() const { return bytes_ > 0; }
   bool pixel(int x, int y) const { return pixels_.empty() || pixels_(x, y) != 0; }
   std::size_t bytes_per_fragment() const { return bytes_; }

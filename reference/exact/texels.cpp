@@ -12,13 +12,12 @@ namespace {
 using Real = long double;
 using ThreeReals = std::array<Real, 3>;
 
-/// The legal interval of lambda at a pixel: from the least in its 2 x 2 quad, by a logarithm that is linear between
-/// powers of two, to the greatest, with the exact bias or Mesa's. Renderers take differences of neighbours in place of
-/// derivatives: along a row and along a column the derivative of a perspective mapping has one direction, and its
-/// length is monotone, so that a difference is between the derivatives at both pixels. The sampler's limits where the
-/// plane reaches the eye within the quad. The differences are of coordinates in float, each a quotient of sums with an
-/// error of 3 u of their terms, which are slopes from the window's origin: 6 u together, relative to the difference's
-/// length; a logarithm in float adds some u of its own magnitude.
+/// Legal interval of lambda at a pixel: from the least in its 2 x 2 quad, by a logarithm that is linear between powers
+/// of two, to the greatest, with the exact bias or Mesa's; the sampler's limits where the plane reaches the eye within
+/// the quad. Renderers take differences of neighbours in place of derivatives: along a row or column the derivative of
+/// a perspective mapping has one direction and a monotone length, so that a difference lies between the derivatives at
+/// both pixels. Each coordinate in float is a quotient of sums with an error of 3 u of their terms (slopes from the
+/// window's origin): 6 u for a difference, relative to its length; a logarithm in float adds some u of its magnitude.
 void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, const math::LevelRules& rules, double& lo,
                      double& hi) {
   constexpr double kRounding = 1.0 / 16777216.0;

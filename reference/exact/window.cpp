@@ -51,7 +51,7 @@ void append_outline(const Draw& draw, const std::vector<WindowVertex<double>>& c
   }
 }
 
-/// Whether a polygon's snapped corners have a positive area (shoelace formula).
+/// Front facing: the snapped corners' area (shoelace formula) is positive.
 bool faces_front(const std::vector<WindowVertex<double>>& corners) {
   Int128 area = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {

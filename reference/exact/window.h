@@ -18,9 +18,9 @@ int facing(const std::array<glm::ivec2, 3>& snapped);
 /// The corners' snapped positions.
 std::array<glm::ivec2, 3> snapped_corners(const WindowTriangle<double>& triangle);
 
-/// Stage 4: a fan of triangles per polygon, without those that are culled or have no snapped area; edges or corners of
-/// polygons that are not filled. Lines and points face the front and are not culled. A polygon with a corner of w <= 0,
-/// or whose window position is not finite or beyond 2^31 / 256 pixels, is dropped as a whole. Throws
+/// Stage 4: for each polygon a fan of triangles, without those culled or without snapped area; edges or corners of
+/// polygons that are not filled. Lines and points face the front and are not culled. A polygon is dropped as a whole if
+/// a corner has w <= 0, or a window position that is not finite or beyond 2^31 / 256 pixels. Throws
 /// std::invalid_argument where the records do not fit the scene or each other.
 std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const ClipPolygons<double>& polygons,
                                                      const std::vector<Matrices<double>>& matrices);

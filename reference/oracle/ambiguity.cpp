@@ -1,10 +1,10 @@
 // Edges. A pixel is ambiguous where its centre is within delta of a visible edge. Where centres are spread evenly,
 // their expected number is the area of those bands: the integral of 2 delta along the visible edges. Each edge is
-// sampled about once per pixel of its length, and a sample counts where its point would be seen beside the winner of
-// the pixel that it falls into. An edge that drawn triangles share is counted once, by the delta of the triangle that
-// may be displaced farthest. Centres are not spread evenly about edges that run along rows, columns or diagonals of
-// centres, as the edges of made-up scenes do: so the centres within the bands are counted too, in each row or column
-// that the edge crosses, and the larger figure is taken. Neither figure depends on depth intervals, groups or folding.
+// sampled about once per pixel of its length, and a sample counts where its depth passes against that of its pixel's
+// winner. An edge that drawn triangles share is counted once, by the largest delta among these triangles. Centres are
+// not spread evenly about edges along rows, columns or diagonals of centres, which test scenes have: so the centres
+// within the bands are counted, too, in each row or column that the edge crosses, and the larger figure is taken.
+// Neither figure depends on depth intervals, groups or folding.
 //
 // Surfaces that meet. Two depths cannot be told apart where |z1 - z2| <= w, w the sum of the half intervals and a step;
 // with s the slope of z1 - z2 that is a band of half width w/s along the line where the surfaces meet. That line passes
@@ -31,9 +31,9 @@ namespace plumbline::math {
 
 namespace {
 
-/// Whether all depth functions keep the nearest surface, or all keep the farthest: then only meetings with the winner
-/// matter. Otherwise the surface that one function keeps is what the next compares with, and hidden surfaces matter
-/// too. (Under stencil tests hidden surfaces always matter: stencil values depend on them.)
+/// One sense: all depth functions keep the nearest surface, or all the farthest. Then only meetings with the winner
+/// matter; else each function compares with the surface that the one before kept, and hidden surfaces matter, too.
+/// (Under stencil tests hidden surfaces always matter: stencil values depend on them.)
 template <class Range, class FuncOf>
 bool one_sense(const Range& range, FuncOf func_of) {
   const auto all = [&](DepthFunc func, DepthFunc or_equal) {
@@ -80,8 +80,8 @@ double z_at(const Triangle& t, glm::dvec3 d) {
 }
 double slope_of(const Triangle& t) { return range_scale(t) * (std::abs(t.z_plane.x) + std::abs(t.z_plane.y)); }
 
-/// Whether a point at depth z of `primitive` is visible at a pixel whose winner is `winner`. Depths count as equal
-/// within the slopes of both surfaces over a pixel, as a surface may fall away within the pixel.
+/// Visibility of a point of `primitive` at depth z, at a pixel whose winner is `winner`. Depths count as equal within
+/// both surfaces' change of depth over a pixel.
 bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitive, std::int32_t winner, glm::dvec3 d,
           double z) {
   const Triangle& t = projected.triangles[primitive];
@@ -160,7 +160,7 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
   }
   const int major = std::abs(along.x) >= std::abs(along.y) ? 0 : 1, minor = 1 - major;
   const double cosine = std::abs(along[major]) / length;
-  // The piece is within the window but for rounding and its margin, which may be large.
+  // The piece may leave the window by rounding and by its margin, which may be large.
   const auto in_window = [&](double at) { return std::clamp(at + half[major], 0.0, window[major]); };
   const double lo = in_window(std::min(from[major], to[major])), hi = in_window(std::max(from[major], to[major]));
   for (double centre = std::ceil(lo - 0.5) + 0.5; centre <= hi; centre += 1) {
@@ -207,7 +207,7 @@ struct Surface {
   std::int32_t number = kNoSurface;  ///< Hit::surface
 };
 
-/// This pixel's share of the band where the two surfaces meet.
+/// Share of the pixel in the band where two surfaces meet.
 DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
   const DepthFunc later = a.order > b.order ? a.func : b.func;  // the function that compares the two
   if (later == DepthFunc::always || later == DepthFunc::never) return {};
@@ -224,8 +224,8 @@ DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b)
   return {apart <= kBandReach * slope ? width / slope / kBandReach : 0, within};
 }
 
-/// This pixel's share of the band along the line where the near or far plane, at depth `plane`, cuts the surface. Only
-/// pixels on the visible side have the surface as a hit, so each has the share of the other side as well.
+/// Share of the pixel in the band where the near or far plane, at depth `plane`, cuts the surface. The surface is a hit
+/// only on the visible side, so each such pixel has the other side's share, too.
 DepthShare cut(const PixelDepth& surface, double plane) {
   const double apart = std::abs(surface.z - plane), slope = glm::length(surface.slope);
   const bool within = apart <= surface.half;
@@ -284,7 +284,7 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   for (const Surface& other : others) share += meeting(scene.frame, won, other);
   const bool counted = std::ranges::any_of(hits, [](const PixelHit& h) { return h.hit.stencil != nullptr; });
   const bool all_count = counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; });
-  // A surface drawn after a winner that does not write depth is compared with surfaces that the winner hides.
+  // After a winner that does not write depth, surfaces are compared with those that the winner hides.
   const auto after = [&](const Surface& s) { return s.order > won.order; };
   if (all_count || !won_writes) {  // else no pair counts
     share += meetings(scene.frame, others,

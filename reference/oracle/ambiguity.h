@@ -1,5 +1,5 @@
-// Predicted number of pixels with more than one legal answer, from the geometry alone. An actual count far above the
-// prediction means that the oracle's bounds are too wide.
+// Predicted number of pixels with several legal answers, from the geometry alone. A count far above the prediction
+// shows that the oracle's bounds are too wide.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace plumbline::math {
 /// winners in double.
 double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id);
 
-/// One pixel's share of the bands along the lines where surfaces meet each other, or the near or far plane.
+/// Share of one pixel in the bands along the lines where surfaces meet each other, the near or the far plane.
 struct DepthShare {
   double area = 0;      ///< [pixels, in [0,1]]
-  bool centre = false;  ///< whether the pixel's centre is in a band
+  bool centre = false;  ///< the pixel's centre is in a band
 };
 /// `hits`: all hits of the pixel, in draw order. `winner`: the pixel's winner in double, or kBackground.
 DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner);

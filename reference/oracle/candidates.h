@@ -1,5 +1,5 @@
-// Candidates: triangles that may cover a pixel. Two independent searches find those that contain a pixel's centre
-// (rays, in reference/embree; boxes, here), one finds those that only come near the centre.
+// Candidates: triangles that may cover a pixel. Two independent searches find triangles that contain the pixel's centre
+// (rays: reference/embree; boxes: here), one finds triangles near the centre.
 #pragma once
 
 #include <cstddef>

@@ -3,10 +3,10 @@
 // Take the triangles that a renderer may draw near a pixel, each oriented counter-clockwise in double, and sum their
 // outlines: where two of them share an edge and lie on opposite sides of it, the edge cancels. If no edge that passes
 // within delta of the pixel is left, the sum's winding number is the same everywhere within delta of the pixel, and
-// does not change while the vertices move by less than delta (shared vertices move together: one position is
-// transformed and snapped in one way). A member that comes near the pixel makes the winding number at least 1, so after
-// snapping it is at least 1, too. A triangle that snapping turns over counts -1; so some triangle that is not turned
-// over, and that no renderer culls, covers the pixel; on a shared edge, the tie rule gives the pixel to one of the two.
+// does not change while the vertices move by less than delta (equal positions are transformed and snapped alike). A
+// member near the pixel makes the winding number at least 1, before and after snapping. A triangle that snapping turns
+// over counts -1; so the pixel is covered by a triangle that is not turned over and that no renderer culls; on a shared
+// edge, the tie rule gives the pixel to one of the two triangles.
 // Thin members are thus allowed. A silhouette does not cancel: both its triangles lie on the same side.
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ int form_groups(const Projected& projected, std::span<PixelHit> hits, int px, in
   if (candidates < 2) return 0;
   const std::vector<NearEdge> edges = near_edges(projected, hits, projected.ray(px, py), delta);
 
-  // Members that share an edge are connected; an edge that does not cancel spoils all members connected with it.
+  // Members that share an edge are connected; an edge that does not cancel excludes all members connected with it.
   std::vector<std::size_t> parent(hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i) parent[i] = i;
   std::vector<bool> open(hits.size(), false);

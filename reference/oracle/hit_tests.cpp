@@ -35,7 +35,7 @@ void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, co
   if (!draw.stencil) return;
   const bool front = t.sign > 0;
   hit.stencil = front ? &draw.stencil->front : &draw.stencil->back;
-  // Snapping may turn over a sliver, or a piece at the border of a cut triangle: either face is legal.
+  // Snapping may reverse a sliver, or a piece at the border of a cut triangle: either face is legal.
   const bool either = t.flat || (!hit.certain && (t.thin || t.cut));
   if (either) hit.or_stencil = front ? &draw.stencil->back : &draw.stencil->front;
   hit.twice = !hit.certain && t.cut;

@@ -1,10 +1,9 @@
 // Coverage that declared conventions decide.
 //
-// For a renderer that declares its grid and its tie rule (settles_ties()), coverage is open only where a corner may be
-// snapped to several grid points: its position in double lies within corner_displacement(), and for roundings down and
-// up kOfFixedPoint, of a position where the rounding changes. To the nearest, that is the middle between two grid
-// points; down and up, a grid point. Coverage is known where all grid points of all three corners give the same answer;
-// the tie rule settles edge functions that are 0.
+// Declared grid and tie rule (settles_ties()): coverage is open only where a corner may snap to several grid points, as
+// its position in double is within corner_displacement() (rounding down, up: plus kOfFixedPoint) of a position where
+// the rounding changes: the middle between two grid points (nearest), or a grid point (down, up). Coverage is known
+// where all combinations of the corners' grid points agree; the tie rule settles edge functions that are 0.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +19,7 @@ namespace {
 
 using C = Conventions;
 
-/// Grid points to which a corner may be snapped, from the window's lower left corner [steps of the grid]; none: any.
+/// Grid points to which a corner may snap, from the window's lower left corner [steps of the grid]; none: unknown.
 struct GridPoints {
   std::array<glm::dvec2, 4> at;
   std::size_t count = 0;
@@ -76,7 +75,7 @@ std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, in
 }
 
 void settle_coverage(C::TieRule tie_rule, std::vector<PixelHit>& hits) {
-  // By an exclusive rule a shared edge is in neither triangle: no group certainly covers the pixel.
+  // An exclusive rule leaves a shared edge to neither triangle: no group certainly covers the pixel.
   for (const PixelHit& h : hits) {
     const int group = h.hit.group;
     if (group < 0 || (tie_rule != C::TieRule::exclusive && h.covers != true)) continue;

@@ -63,9 +63,9 @@ Planes empty_planes(const FrameFormat& frame) {
   return planes;
 }
 
-/// Most fragments of a hit. A possible hit of a cut triangle has up to two: snapping may turn over a sliver of the
-/// triangle's fan, which then covers the pixel together with its neighbour in the fan. By an inclusive rule a sample is
-/// in both pieces beside a diagonal, and at the border in all, which meet at one corner: of 9 corners 7 pieces.
+/// Most fragments of a hit. Possible hit of a cut triangle: two, as snapping may reverse a sliver of the fan, which
+/// then covers the pixel together with its neighbour. Inclusive tie rule: two on a diagonal of the fan; at the border
+/// seven, where all pieces may meet at one corner (9 corners).
 std::uint32_t pieces(const Projected& projected, const PixelHit& h) {
   if (!projected.triangles[h.hit.primitive].cut) return 1;
   if (projected.conventions.tie_rule != Conventions::TieRule::inclusive) return h.hit.certain ? 1 : 2;
@@ -74,9 +74,9 @@ std::uint32_t pieces(const Projected& projected, const PixelHit& h) {
 
 /// Upper bound of the number of fragments that the hits make at the pixel.
 ///
-/// A group (groups.cpp) whose triangles are neither cut nor turned over makes as many fragments as its winding number,
-/// at least one. The winding number is the same everywhere within delta of the pixel, and is counted beside the centre,
-/// at one point, through which no edge is likely to run. By an inclusive rule a sample on an edge is in both triangles.
+/// A group (groups.cpp) of triangles neither cut nor turned over makes as many fragments as its winding number, at
+/// least one. The winding number, constant within delta of the pixel, is counted at one point beside the centre, which
+/// is unlikely to be on an edge. An inclusive rule puts a sample on an edge in both triangles.
 std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits, std::size_t groups, int x,
                              int y) {
   const auto beside = [&](double delta) { return projected.ray(x, y) + delta * glm::dvec3(0.37, 0.21, 0); };
@@ -132,7 +132,7 @@ const Draw& draw_of(const Scene& scene, const Projected& projected, const Hit& h
   return scene.draws[projected.triangles[hit.primitive].draw];
 }
 
-/// Whether the hit passes the stencil and the depth test; updates the stencil plane.
+/// Stencil and depth test of the hit; updates the stencil plane.
 bool tested(const PixelHit& h, double z, Planes& planes, int x, int y) {
   const bool passes_depth = passes(h.hit.depth_func, z, planes.depth(x, y));
   if (h.hit.stencil == nullptr) return passes_depth;
@@ -233,9 +233,8 @@ std::vector<std::vector<bool>> choices(std::span<const Hit> hits, std::size_t mo
   return out;
 }
 
-/// Sets the legal interval of the frame's colour at a pixel: unbounded unless it is certain which fragments are drawn,
-/// but for the members of groups, one of which is. `is_counted`: each group makes one fragment, and all other hits are
-/// certain.
+/// Sets the legal interval of the frame's colour at a pixel; unbounded where the drawn fragments are open, but for the
+/// choice among a group's members. `is_counted`: each group makes one fragment, and all other hits are certain.
 void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, bool is_counted, int x,
                  int y, Legal& legal) {
   constexpr float kUnbounded = std::numeric_limits<float>::infinity();

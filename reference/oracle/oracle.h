@@ -14,9 +14,9 @@ namespace plumbline::math {
 /// The oracle's answer for a frame.
 struct Oracle {
   Legal legal;
-  /// The frame in double. A triangle covers a pixel where the pixel's centre is inside it in double (on an edge, by
-  /// tie rule left_bottom), no vertex snapped and no coordinate rounded; but where the declared grid and tie rule
-  /// settle coverage (known_coverage.cpp), by these. Depth and colour are rounded to the frame's formats.
+  /// Frame in double: no vertex snapped, no coordinate rounded. A triangle covers a pixel whose centre is inside (on an
+  /// edge: tie rule left_bottom); where the declared grid and tie rule settle coverage (known_coverage.cpp), these
+  /// decide. Depth and colour are rounded to the frame's formats.
   Planes planes;
   /// Fragments of these planes at the pixels that the request names, row by row, each pixel's in draw order: triangles
   /// (with `corners` 0: only primitive and front are known), covered, depth, shaded, drawn, as far as requested.

@@ -15,8 +15,8 @@ namespace plumbline::math {
 
 namespace {
 
-/// Derivatives of the hit's texture coordinates along x and y, which `planes` weight: d b_i / dx = (n_i.x - b_i sum_j
-/// n_j.x) / sum_j e_j. None: the ray meets the triangle's plane behind the eye.
+/// Derivatives [1 / pixel] of the hit's texture coordinates, from edge functions `planes`: d b_i / dx = (n_i.x - b_i
+/// sum_j n_j.x) / sum_j e_j. None: the ray meets the triangle's plane behind the eye.
 struct Derivatives {
   glm::dvec2 along_x, along_y;
 };
@@ -70,8 +70,8 @@ BoundedPlace place_in_texture(const Texture& texture, const PixelSite& site, con
   return out;
 }
 
-/// Largest excess of a colour beyond [0,1] in channels that are within [0,1] at all corners: by extrapolation beyond
-/// the triangle, where a renderer may clamp or not.
+/// Largest excess beyond [0,1] of channels within [0,1] at all corners, by extrapolation beyond the triangle; a
+/// renderer may clamp or not.
 double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corners) {
   double out = 0;
   for (glm::length_t c = 0; c < 4; ++c) {
@@ -87,10 +87,10 @@ struct FactorRange {
   void include(double factor) { least = std::min(least, factor), most = std::max(most, factor); }
 };
 
-// Includes the factors that pieces of a cut triangle may interpolate at a fragment of that distance [eye units].
-// Distances of a piece's corners lie in [near, far]: from the triangle's nearest corner, or the near plane's cut, to
-// its farthest corner. A convex factor lies between the fragment's own and the chord of [near, far]. Not convex: exp2;
-// linear fog where it starts; any factor across the eye's plane. There the whole range of factors is legal.
+// Includes the factors that pieces of a cut triangle may interpolate at a fragment of that distance [eye units]. The
+// distances of pieces' corners lie in [near, far]: from the triangle's nearest corner, or the near plane's cut, to its
+// farthest corner. A convex factor lies between the fragment's own and the chord over [near, far]. Where the factor is
+// not convex (exp2; linear fog about its start; across the eye's plane), the whole range is legal.
 void include_factors_of_pieces(FactorRange& factors, const Fog& fog, const PixelSite& site, double distance) {
   const auto z_eye = [&](std::uint32_t corner) { return site.scene.corners[corner].z_eye; };
   const auto [low, high] = std::ranges::minmax(site.t.corner, {}, z_eye);
@@ -114,9 +114,9 @@ class FragmentColor {
 
   /// The colour and its bound after all stages up to fog.
   BoundedFour color() const;
-  /// Whether alpha is 0 by any arithmetic: at all corners, and no texture replaces it.
+  /// True if alpha is 0 in any arithmetic: at all corners, and no texture replaces it.
   bool has_no_alpha() const;
-  /// Error of alpha, as alpha tests compare it, beyond that of the colour: of a last rounding that the frame repeats.
+  /// Error of alpha in alpha tests beyond the colour's: the last rounding to codes, which color() leaves to the frame.
   double rounding_of_alpha() const;
 
  private:
@@ -130,8 +130,8 @@ class FragmentColor {
     const auto corner = [&](std::size_t i) { return of_corner(site_.scene.corners[site_.t.corner[i]]); };
     return {corner(0), corner(1), corner(2)};
   }
-  // Lit colour of vertices at the site, smooth or flat. A renderer that declares float arithmetic may interpolate
-  // between three equal corners, too.
+  // Vertex colour at the site, smooth or flat. A renderer that declares float arithmetic may interpolate three equal
+  // corners, too.
   BoundedFour of_vertices(auto of_corner) const {
     std::array<BoundedFour, 3> corners = at_corners(of_corner);
     for (BoundedFour& corner : corners) corner.bound += rounding_of_vertex(corner);
@@ -148,15 +148,15 @@ class FragmentColor {
   void light_fragment(BoundedFour& color, BoundedFour& secondary) const;
   BoundedFour textured(const BoundedFour& color) const;
   void fog(BoundedFour& color) const;
-  // Error of a corner's colour by its rounding to a code; 0 where vertices' colours are none, or this one is already.
+  // Error of a corner's colour by rounding to a code; 0 where vertex colours are no codes, or this one is already.
   // Each plane that cuts rounds once more.
   double rounding_of_vertex(const BoundedFour& color) const;
   // Half a code, where fragments' colours are codes; else 0.
   double half_code() const;
-  // Whether the last rounding counts: the colour is blended or encoded. Else the frame rounds a code to itself.
+  // True if the last rounding counts: the colour is blended or encoded. Else the frame rounds a code to itself.
   bool counts_last() const;
-  // Adds the error of a rounding to codes. Codes that are rounded down or up are off to one side; `has_side`: so is the
-  // colour.
+  // Adds the error of rounding to codes. `has_side`: rounding down or up shifts the colour to that side, else either
+  // way.
   void round(BoundedFour& color, double half, bool has_side = true) const;
   // Fog factor at the fragment.
   Bounded fog_factor_there() const;

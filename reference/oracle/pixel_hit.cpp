@@ -40,8 +40,8 @@ double corner_error_at(const PixelSite& site, double z, bool clamps) {
   return (site.clip_error.z + z_ndc * site.clip_error.w) / (2 * site.w) + kFloatRounding;
 }
 
-/// Whether the near or the far plane certainly cuts the triangle off at the pixel. What is left of the triangle is a
-/// polygon that is displaced by at most `delta` [pixels], whatever plane its depths go through.
+/// True if the near or the far plane certainly clips the triangle at the pixel. The clipped polygon is displaced by at
+/// most `delta` [pixels], whatever plane its depths go through.
 bool is_cut_off(const PixelSite& site, double delta) {
   if (site.t.flat || site.scene.depth_clamp) return false;
   const double z = 0.5 + glm::dot(site.t.z_plane, site.d);
@@ -71,8 +71,8 @@ bool is_at_cut(const PixelSite& site, double delta) {
   return is_at_diagonal(site.t.outline) || is_at_diagonal(site.t.guarded.outline);
 }
 
-/// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane may
-/// be snapped alike, by the plane's own error where depth_corners are as they are; plus the corners' depth error.
+/// Sets the depth interval: the plane's z at the pixel, displaced by up to h + delta_E (depth_corners may be snapped)
+/// or delta_E (as_they_are), plus the corners' depth error.
 void set_depth(const PixelSite& site, PixelHit& out) {
   const Projected& scene = site.scene;
   const Triangle& t = site.t;
@@ -120,7 +120,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   const PixelSite site(projected, t, px, py);
   if (!site.in_reach) return std::nullopt;
   PixelHit out;
-  // A triangle seen edge on may, by rounding, cover a pixel by its part nearest to the eye.
+  // Rounding may let a triangle seen edge on cover a pixel by its part nearest to the eye.
   out.delta = t.flat ? t.reach : std::min(t.reach, projected.snap + t.growth * glm::length(site.moved));
   if (!site.inside && !t.loose && site.border > out.delta) return std::nullopt;
   if (is_cut_off(site, out.delta)) return std::nullopt;
@@ -129,8 +129,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   const bool at_cut = is_at_cut(site, out.delta);
   out.hit.certain = site.inside && site.border > out.delta && !t.thin && !at_cut;
-  // A side plane cuts an edge that two triangles share: each rounds the new corner, down or up, perhaps to another grid
-  // point.
+  // Two triangles whose shared edge a side plane cuts may round the new corner, down or up, to different grid points.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.may_join_group = t.facing_kept && !t.flat && !t.cut;
   set_depth(site, out);

@@ -1,4 +1,4 @@
-// One triangle at one pixel: its coverage, depth and colour in double, with bounds of what legal renderers compute.
+// Pixel hit: one triangle at one pixel, with coverage, depth and colour in double and bounds for legal renderers.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace plumbline::math {
 /// A surface's depth at a pixel.
 struct PixelDepth {
   double z = 0;
-  double half = 0;      ///< bound on a legal renderer's difference from z; infinite without a reliable plane
+  double half = 0;      ///< bound on |z of a legal renderer - z|; infinite without a reliable plane
   glm::dvec2 slope{0};  ///< dz/dx, dz/dy [1 / pixel]
 };
 
@@ -26,14 +26,14 @@ struct PixelHit {
   /// In double, the pixel is covered (`covers` where it is known, else with ties by rule left_bottom), in depth
   /// range, and not culled.
   bool inside = false;
-  bool may_join_group = false;  ///< not culled, not cut here in depth, and side cuts round alike
-  PixelDepth view;     ///< z_view: 0 on the near plane, 1 on the far one; not clamped. half: with snapping, as for cuts
-  PixelDepth win;      ///< window z; clamped to the depth range under depth clamp
-  bool drawn = false;  ///< inside, and passed all tests in double (oracle.h)
-  double delta = 0;    ///< largest displacement of the triangle's outline here [pixels]
-  bool colored = false;    ///< the colour and its bound are set
-  double alpha_bound = 0;  ///< of hit.color.a alone
-  /// Whether every renderer of the declared grid and tie rule covers the pixel, or none does; nullopt: open.
+  bool may_join_group = false;  ///< not culled, not cut in depth here; side cuts round alike
+  PixelDepth view;              ///< z_view: 0 on the near plane, 1 on the far one; not clamped. half: includes snapping
+  PixelDepth win;               ///< window z; clamped to the depth range under depth clamp
+  bool drawn = false;           ///< inside, and passed all tests in double (oracle.h)
+  double delta = 0;             ///< largest displacement of the triangle's outline here [pixels]
+  bool colored = false;         ///< the colour and its bound are set
+  double alpha_bound = 0;       ///< of hit.color.a alone
+  /// Coverage by the declared grid and tie rule: true in every legal renderer, false in none; nullopt: open.
   std::optional<bool> covers;
 };
 
@@ -62,8 +62,8 @@ std::optional<bool> known_coverage(const Projected& projected, const Triangle& t
 /// that do not, and dissolves groups of which a member covers, or, by an exclusive rule, all groups.
 void settle_coverage(Conventions::TieRule tie_rule, std::vector<PixelHit>& hits);
 
-/// Finds sets of possible hits that together certainly cover the pixel, and numbers them (Hit::group).
-/// Returns the number of sets. `hits` are those of one pixel.
+/// Finds sets of possible hits of one pixel that together certainly cover it, and numbers them (Hit::group).
+/// Result: the number of sets.
 int form_groups(const Projected& projected, std::span<PixelHit> hits, int px, int py);
 
 }  // namespace plumbline::math

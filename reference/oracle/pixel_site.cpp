@@ -77,7 +77,7 @@ void PixelSite::place() {
       return;
     }
     inside &= e >= 0;
-    const auto left_bottom = Conventions::TieRule::left_bottom;  // what a float renderer of OpenGL's conventions has
+    const auto left_bottom = Conventions::TieRule::left_bottom;  // as exact/coverage.h
     by_ties &= e > 0 || (e == 0 && owns_ties(left_bottom, t.sign * glm::dvec2(t.n[i])));
     border = std::min(border, t.per_pixel[i] > 0 ? e * t.per_pixel[i] : kInfinity);
   }
@@ -100,7 +100,7 @@ void PixelSite::place() {
   }
 }
 
-// A piece that rounding and snapping move by up to `reach` covers the pixel only if it came within `reach` of it.
+// A piece covers the pixel only if, in double, it is within `reach`, its displacement by rounding and snapping.
 void PixelSite::find_pieces() {
   const double moved_by = 2 * (t.reach - scene.snap);
   const auto thinnest = [&](double of_all, const std::vector<glm::dvec2>& outline) {
@@ -111,17 +111,16 @@ void PixelSite::find_pieces() {
 }
 
 double PixelSite::snap_weight(bool certain) const {
-  // A plane is set up through vertices within delta_E of their places, and evaluated at the pixel. With b' the pixel's
-  // barycentrics in the moved triangle, it comes to z at sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel.
-  // Inside, that sum is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b'
-  // are negative, each by no more than the step over the altitude. A triangle that is cut is drawn in pieces, which
-  // have such borders inside it too.
+  // A plane through vertices displaced by up to delta_E, evaluated at a pixel with barycentrics b' in the displaced
+  // triangle, has the value of the point sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel. Inside, the sum
+  // is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b' are negative, each
+  // by at most the step over the altitude. The pieces of a cut triangle have such borders inside the triangle, too.
   if (certain && !t.cut) return 1;
   const double altitude = pieces.framed;
   return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
 }
 
-// Thin pieces of a cut triangle lie along its border.
+// Thin pieces of a cut triangle lie at its border.
 bool PixelSite::may_show_either_face(bool certain) const { return t.thin || t.sign == 0 || (t.cut && !certain); }
 
 /// snap_weight() for the pixel's centre where the triangle covers a sample: the centre may be outside of the triangle
@@ -169,8 +168,8 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
     most = std::max(most, largest(corners[i].value));
   }
   for (const BoundedFour& corner : corners) spread = std::max(spread, largest(corner.value - value));
-  // A far point of a triangle that comes near has small e_i: their errors are those of the near end, w / w_min larger.
-  // The relative error of 1/w_i moves the value by its share of the spread, and so does that of w's plane.
+  // Far from the eye, e_i of a triangle that comes near are small, but have the near end's errors: w / w_min larger.
+  // A relative error of 1/w_i, or of the plane of 1/w, moves the value by that share of the spread.
   const double near_end = std::max(w, centre == d ? 0 : 1 / glm::dot(t.w_plane, centre)) / t.w_min;
   const double value_weight = 1 + (weight - 1) * near_end;
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;

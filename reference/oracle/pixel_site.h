@@ -11,11 +11,11 @@
 
 namespace plumbline::math {
 
-/// Whether a sample on an edge belongs to the triangle that lies in the direction `inward` from the edge.
+/// Tie rule: true where the triangle on the side `inward` of an edge owns the samples on the edge.
 bool owns_ties(Conventions::TieRule rule, glm::dvec2 inward);
 
-/// Distance of a window point d from a triangle's edge from corner j to corner k, as far as the edge is in front of the
-/// eye; infinite where it is not.
+/// Distance of a window point d from the part of a triangle's edge, corner j to corner k, in front of the eye; infinite
+/// without such a part.
 struct EdgeDistance {
   double pixels;
   glm::dvec3 d_nearest;  ///< the point of the edge nearest to d
@@ -24,8 +24,8 @@ struct EdgeDistance {
 /// `n`: v_j x v_k.
 EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d);
 
-/// A triangle at one pixel's ray. Parameter `certain` of the functions: whether every legal renderer covers the pixel
-/// with the inside of the triangle.
+/// A triangle at one pixel's ray. Parameter `certain`: true where every legal renderer covers the pixel with the
+/// triangle's inside.
 class PixelSite {
  public:
   PixelSite(const Projected& scene, const Triangle& triangle, int px, int py);
@@ -41,20 +41,19 @@ class PixelSite {
   double w = 0;              ///< clip w at `nearest`, within that of the triangle's visible part
   bool in_reach = false;     ///< a legal renderer may cover the pixel; else the next three are not set
   glm::dvec4 clip_error{0};  ///< clip_error() at `nearest`
-  PieceAltitudes pieces{};   ///< of the pieces that may cover the pixel, less what rounding takes off
+  PieceAltitudes pieces{};   ///< of the pieces that may cover the pixel, less their error
   glm::dvec2 moved{0};       ///< largest displacement of the triangle by float arithmetic at `nearest` [pixels]
 
-  /// S: factor by which the errors of a plane's corners may grow at a pixel of its triangle; infinite: without bound.
+  /// Largest sum of |barycentrics| at the pixel: factor on errors of the plane's corners; infinite: no bound.
   double snap_weight(bool certain) const;
-  /// Whether snapping may turn over the triangle, or the piece of it that covers the pixel.
+  /// True if snapping may reverse the facing of the triangle or of the covering piece.
   bool may_show_either_face(bool certain) const;
-  /// Whether snapping may turn over the piece that covers the pixel; the piece's plane then goes through snapped
-  /// corners.
+  /// True if snapping may reverse the covering piece's facing; its plane then goes through snapped corners.
   bool may_turn_over(bool certain) const { return !certain && (t.cut || t.thin); }
   /// Edge functions that weight the corners' attributes.
   std::array<glm::dvec3, 3> weight_planes(Conventions::Interpolation how) const;
-  /// Whether texture coordinates go by weight_planes(). Without perspective, the pieces of a cut triangle have planes
-  /// of their own.
+  /// True if weight_planes() interpolate texture coordinates. Without perspective, each piece of a cut triangle has
+  /// its own plane.
   bool has_one_plane() const {
     return scene.conventions.interpolation == Conventions::Interpolation::perspective || !t.cut;
   }

@@ -7,8 +7,8 @@ namespace plumbline::math {
 
 namespace {
 
-/// Whether both draws give a triangle the same depth: equal transforms and depth state, and equal state in which
-/// renderers may run another program (light, shading, texture, fog).
+/// Equality of the state that decides a triangle's depth: transforms, depth state, and state by which renderers may
+/// choose another program (light, shading, texture, fog).
 bool same_placement(const Draw& a, const Draw& b) {
   return a.transforms == b.transforms && a.depth_range == b.depth_range && a.polygon_offset == b.polygon_offset &&
          a.lit == b.lit && a.shading == b.shading && a.texture.has_value() == b.texture.has_value() &&

@@ -69,8 +69,8 @@ Cancelled cancelled_in(const WindowTriangle<double>& t) {
   const auto& v = t.v;
   double farthest = 0;
   for (const auto& corner : v) farthest = std::max({farthest, std::abs(corner.p_win.x), std::abs(corner.p_win.y)});
-  // Every gradient is a sum of products of differences over the area, in float: what cancels in them is at most the
-  // longest side times the window position, and grows with the inverse of the area. (Of a line: of its squared length.)
+  // Every gradient is a sum of products of differences over the area, in float. Cancellation: at most the longest side
+  // times the window position, over the area (of a line: the squared length).
   const Vec2<double> e1 = Vec2<double>(v[1].p_win) - Vec2<double>(v[0].p_win);
   const Vec2<double> e2 = Vec2<double>(v[2].p_win) - Vec2<double>(v[0].p_win);
   const double longest = std::max({std::abs(e1.x), std::abs(e1.y), std::abs(e2.x), std::abs(e2.y)});
@@ -96,9 +96,8 @@ PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, in
     y0 = std::max(y0, std::abs(corner.p_win.y));
     from_corner = std::max({from_corner, std::abs(x + 0.5 - corner.p_win.x), std::abs(y + 0.5 - corner.p_win.y)});
   }
-  // A gradient is a difference of two products, of differences over the area: each of these five may be flushed. Its
-  // error is multiplied by the way from the corner to the origin and to the pixel; eight other results are flushed
-  // once.
+  // Flushing: a gradient has five results (two differences over the area, two products, their difference). Their errors
+  // are multiplied by the ways to the origin and to the pixel; eight other results are flushed once.
   const double flushed = kFlushed * (8 + (3 + 2 * cancelled.longest / cancelled.area) * (x + x0 + y + y0));
   // {value at the pixel, bound} of the plane through the corners' values.
   const auto plane = [&](double f0, double f1, double f2) {
@@ -182,7 +181,7 @@ std::span<const WindowTriangle<double>> triangles_of(const Records<double>& r, s
 
 namespace {
 
-// Whether the pixel's centre is inside the triangle, or within a pixel of its outline. Of lines: always.
+// True if the pixel's centre is inside the triangle or within a pixel of its outline; always of lines.
 bool reaches(const WindowTriangle<double>& t, int x, int y) {
   if (t.corners < 3) return true;
   const Vec2<double> centre(x + 0.5, y + 0.5);
@@ -304,7 +303,7 @@ std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges
 
 namespace {
 
-// Whether a point covers the pixel: the square about the nearest centre (odd sizes) or corner of pixels (stages.h, 5).
+// Coverage of a pixel by a point: a square about the nearest centre (odd sizes) or corner of pixels (stages.h, 5).
 bool covers(const WindowTriangle<double>& point, int x, int y) {
   const Vec2<double> p = Vec2<double>(point.v[0].snapped) / static_cast<double>(kSubpixel) + 0.5;
   const Vec2<double> middle = point.width % 2 == 1 ? glm::floor(p) + 0.5 : glm::floor(p + 0.5);

@@ -1,5 +1,5 @@
-// Error bounds, from the number format and the formula: largest difference between a stage's formula in float and the
-// same formula in double. u = 2^-24 is the unit roundoff of float. The factors are in the ledger.
+// Error bounds from number format and formula: largest difference between a stage's formula in float and in double.
+// u = 2^-24 is the unit roundoff of float. The factors are in the ledger.
 #pragma once
 
 #include <span>
@@ -31,15 +31,15 @@ double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<doub
 /// Error bounds of a plane's value at a pixel centre: of depth, and of the colour's four channels.
 struct PlaneBounds {
   double depth;        ///< [u of window z]
-  Vec4<double> color;  ///< [u], to first order; too small where `inv_w` is large: color_error() is not
+  Vec4<double> color;  ///< [u], to first order: too small where `inv_w` is large: color_error() holds
   double inv_w = 0;    ///< relative error of the interpolated 1/w [u]
   /// Line: value interpolated by the position on the major axis, as by llvmpipe, less the value at the centre's
   /// projection onto the line (OpenGL 2.1, equation 3.5); signed [window z; colour].
   double line_shift_depth = 0;
   Vec4<double> line_shift_color{0};
 
-  /// Error of a colour whose planes have `factor` times the errors above: (E(c/w) + |c| E(1/w)) / (1/w - E(1/w)), as
-  /// the division makes it; infinite where 1/w may be 0.
+  /// Error of a colour whose planes have `factor` times the errors above: (E(c/w) + |c| E(1/w)) / (1/w - E(1/w));
+  /// infinite where 1/w may be 0.
   Vec4<double> color_error(double factor) const;
 };
 
@@ -56,16 +56,15 @@ DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive);
 /// (PlaneBounds), which differ where 1/w differs much between the ends. Flushing of gradients and results to zero is
 /// included. Infinite where area_may_vanish().
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
-/// Bounds for a primitive at a pixel, at least 1: the largest over its window triangles that hold the pixel's centre or
-/// come within a pixel of it; if none does, over all. Line shifts: those of the edge nearest to the pixel's centre.
+/// Bounds for a primitive at a pixel, at least 1: largest over its window triangles within a pixel of the pixel's
+/// centre; if none is, over all. Line shifts: those of the edge nearest to the centre.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
                              const DepthLimits& limits = {});
 
-/// Whether a renderer that computes a triangle's area from its corners in float may find 0; the planes are then
-/// undefined.
+/// True if a triangle's area, computed from its corners in float, may be 0; the planes are then undefined.
 bool area_may_vanish(const WindowTriangle<double>& triangle);
 
-/// Whether a pixel's centre is in the triangle or beside it: no barycentric below -1/64.
+/// True if a pixel's centre is in or beside the triangle: no barycentric below -1/64.
 bool is_near(const WindowTriangle<double>& triangle, int x, int y);
 
 /// Window triangles of the primitive, a view; `records.triangles` are sorted by primitive. Empty: it has none.
@@ -95,9 +94,9 @@ class OffsetErrors {
   bool any_;  // whether any draw has an offset
 };
 
-/// Values that a pixel may hold where edges of an unfilled triangle meet: two for each edge whose distance from the
-/// pixel's centre is at most the edge's width plus two pixels, by projection and by the position on the major axis.
-/// Empty for fewer than two such edges.
+/// Values that a pixel may hold where edges of an unfilled triangle meet: for each edge within its width plus two
+/// pixels of the pixel's centre one by projection and one by the position on the major axis. Empty for fewer than two
+/// edges.
 struct EdgeValue {
   double depth;
   Vec4<double> color;

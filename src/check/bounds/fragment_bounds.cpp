@@ -77,9 +77,8 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
   return out;
 }
 
-// Factor by which a pixel's centre enlarges errors of the corners: the sum of its barycentric weights' absolute values,
-// 1 inside the triangle. Along a line, which ends beside its last pixel's centre, the larger of that by the projection
-// and that by the major axis.
+// Factor on the corners' errors at a pixel's centre: the sum of |barycentric weights|, 1 inside the triangle. Line,
+// which ends beside its last pixel's centre: the larger of the sums by the projection and by the major axis.
 double enlarged(WindowTriangle<double> t, int x, int y) {
   for (int k = 0; k < 3; ++k) t.v[static_cast<std::size_t>(k)].color = {k == 0, k == 1, k == 2, 0};
   const auto sum_of = [](const Vec4<double>& weights) {
@@ -90,8 +89,8 @@ double enlarged(WindowTriangle<double> t, int x, int y) {
   return t.corners == 2 ? std::max(by_plane, sum_of(weights + bounds_from_origin(t, x, y).line_shift_color)) : by_plane;
 }
 
-// Error of the candidate's interpolation (ledger, exact.attributes): beside the eye, where a corner is far away, it may
-// exceed the error of a plane evaluated from the origin.
+// Error of the candidate's interpolation (ledger, exact.attributes). Where a corner is far away beside the eye, the
+// error may exceed that of a plane evaluated from the origin.
 Vec4<double> mean_error(const WindowTriangle<double>& t, int x, int y) {
   return tolerance(Profile::exact, Stage::attributes).factor * u * bounds_of_mean(t, x, y);
 }
@@ -102,7 +101,7 @@ std::vector<Vec4<double>> lit_colors(const Records<double>& r) {
   return out;
 }
 
-// Element by element; a column that is shorter counts as 0.
+// Larger element of each pair; a missing one counts as 0.
 std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<Vec4<double>>& b) {
   a.resize(std::max(a.size(), b.size()), Vec4<double>(0));
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) a[i] = glm::max(a[i], b[i]);
@@ -113,7 +112,7 @@ std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<
 
 namespace {
 
-// Numbers of the fragments that are `wanted`; none of a triangle that is not there.
+// Numbers of the `wanted` fragments of recorded triangles.
 template <class Wanted>
 std::vector<std::size_t> fragments_of(const Records<double>& r, const Wanted& wanted) {
   std::vector<std::size_t> out;
@@ -298,7 +297,7 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Vec3<double> sum(primary + fours[Varying::secondary]);
   const bool clamped = summed && (std::max({sum.x, sum.y, sum.z}) > 1 || std::min({sum.x, sum.y, sum.z}) < 0);
   if (draw.fog && clamped) out.reason = kClampedLate;
-  // A sample of a triangle before the eye may be drawn where the triangle's plane, at the centre, is behind it.
+  // A sample before the eye may be drawn at a centre where the triangle's plane is behind the eye.
   const bool behind = fours[Varying::position].z > 0 || reaches_behind_eye(triangle.primitive);
   if (draw.fog && behind) out.reason = kBehindEye;
   return out;

@@ -1,5 +1,5 @@
-// Error bounds of a fragment's final colour, for a renderer that evaluates planes in float from the window's origin, as
-// llvmpipe does.
+// Error bounds of a fragment's final colour, for a renderer that evaluates planes in float from the window's origin
+// (llvmpipe).
 #pragma once
 
 #include <algorithm>
@@ -19,9 +19,9 @@ namespace plumbline::check {
 /// Fragments by pixel, in draw order.
 class FragmentsByPixel {
  public:
-  /// Fragments that are drawn; none: the records do not say which.
+  /// Drawn fragments; none where the records do not hold `drawn`.
   static FragmentsByPixel drawn(const FrameFormat& frame, const Records<double>& records);
-  /// All covered fragments, those that are not drawn too.
+  /// All covered fragments, drawn or not.
   static FragmentsByPixel covered(const FrameFormat& frame, const Records<double>& records);
   /// Calls visit(number of the fragment) for each of them at (x, y), in draw order.
   template <class Visit>
@@ -50,7 +50,7 @@ struct FragmentBound {
   /// absolute value and of the distance to another edge's colour.
   Vec4<double> line_shift{0};
   Vec4<double> apart{0};    ///< errors of vertex colours, of cuts and of the candidate's interpolation
-  std::string_view reason;  ///< why a larger difference is the reference's fault; empty: it is not
+  std::string_view reason;  ///< the reference's fault that explains a larger difference; empty: none
 };
 
 class FragmentBounds {
@@ -80,14 +80,13 @@ class FragmentBounds {
   std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
   Vec4<double> varying_error(std::size_t i, Varying v) const;
   /// Error of the corners that cuts make: opengl.clip of the ledger times the largest value at the primitive's
-  /// vertices; 0 where the primitive is not cut. On an edge whose ends are 10^6 apart it may exceed the errors of all
-  /// later stages.
+  /// vertices; 0 where nothing is cut. On an edge with ends 10^6 apart, it may exceed all later stages' errors.
   Vec4<double> cut_error(std::uint32_t primitive, const std::vector<Vec4<double>>& column) const;
   /// Largest difference of the two sides' colours at the primitive's corners: `times` the difference at its vertices,
   /// and cut_error() of the colours unless the draw is flat.
   Vec4<double> lit_error(std::uint32_t primitive, double times) const;
-  /// Largest distance of the fragment's value from those of its triangle's other edges or corners that the pixel may
-  /// hold (bounds.h, EdgeValue). `columns`: a varying's; null: the colour.
+  /// Largest difference between the fragment's value and those of its triangle's other edges or corners at the pixel
+  /// (bounds.h, EdgeValue). `columns`: a varying's; null: the colour.
   Vec4<double> by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const;
 
   const Scene& scene_;

@@ -56,7 +56,7 @@ double depth_rounding(const WindowTriangle<double>& t) {
 namespace {
 
 // Changes of the three q_i and of their sum within a block of 4 x 4 pixels, if a pipeline may evaluate them in float
-// there: none is more than half of the least 1/w (kernels/attributes.h, changes_little). Else 0.
+// there: each but q_0's is at most half of the least 1/w (kernels/attributes.h, changes_little). Else 0.
 struct BlockChanges {
   Vec3<double> q{0};
   double sum = 0;
@@ -81,8 +81,7 @@ Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
   const double condition = (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) / std::abs(sum);
   const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
   const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
-  // Where a corner's share is nearly 0, its own rounding in double is left: 2^-52 of terms that are anchored a tile
-  // away.
+  // A corner's share of nearly 0 keeps its rounding in double: 2^-52 of terms anchored a tile away.
   const auto share = [&](int i) {
     const double k = std::abs(q[i] / sum), terms = 1 + 128 * (std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]));
     return condition * k + 0x1p-28 * terms * std::abs(t.v[static_cast<std::size_t>(i)].inv_w / sum) +

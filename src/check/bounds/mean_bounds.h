@@ -5,7 +5,7 @@
 
 namespace plumbline::check {
 
-/// The triangle's perspective-correct colour at a pixel's centre, extrapolated outside it, and its slopes [1/pixel].
+/// Perspective-correct colour at a pixel's centre, extrapolated outside the triangle, and its slopes [1/pixel].
 struct PlaneValue {
   Vec4<double> value, d_dx, d_dy;
 };
@@ -25,9 +25,9 @@ inline constexpr SlopeArithmetic kSlopesInDouble{0x1p-51, 128};  ///< from an an
 Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y,
                             const SlopeArithmetic& arithmetic = kSlopesInDouble);
 
-/// Rounding error of a triangle's depth in double [window z]. The plane is evaluated at an anchor at most a tile (64
-/// pixels) away and brought to the pixel, so its terms are the corners' depths and both slopes over 128 pixels; six
-/// roundings of 2^-53. With slopes of 1 a pixel 1e-13; with slopes of 10^7 (slivers beside the eye) a step of z24.
+/// Rounding error of a triangle's depth in double [window z]: six roundings, 2^-53 each, of the corners' depths and of
+/// both slopes over 128 pixels, as the plane is evaluated at an anchor at most a tile (64 pixels) away. Slopes of 1 per
+/// pixel: 1e-13; slopes of 10^7 (slivers beside the eye): a step of z24.
 double depth_rounding(const WindowTriangle<double>& triangle);
 
 /// Error of a colour c that is a weighted mean of corners (as the pipeline computes it, and any renderer that works

@@ -53,7 +53,7 @@ bool may_be_empty(const Legal& legal) {
 
 namespace {
 
-// A product by 255 in float may bring a reference to another code where it lies between two (llvmpipe makes 76 of 0.3).
+// The float product by 255 of a reference half way between two codes may go to either (llvmpipe makes 76 of 0.3).
 Outcomes theirs_of(AlphaTest test, ColorFormat format, double lo, double hi) {
   Outcomes out = alpha_outcomes(test, format, lo, hi);
   if (color_scale(format) == 0) return out;
@@ -144,7 +144,7 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
     const DepthLimits limits = depth_limits(draws, static_cast<std::int32_t>(primitive));
     const double z = r.depth[i], error = depth_error(r, offsets, i, limits, scene.frame.depth);
     const bool compares = draw->depth_func != DepthFunc::always && draw->depth_func != DepthFunc::never;
-    const double apart = std::abs(z - before.z);  // rounded, two depths are equal only within a step of each other
+    const double apart = std::abs(z - before.z);  // depths that round to one code are within a step of each other
     if (compares && !(apart > error + before.error + depth_step(scene.frame.depth, z))) open(c.x, c.y) = 1;
     if (r.drawn[i].drawn && draw->merge.depth_mask) before = {z, error};
   }

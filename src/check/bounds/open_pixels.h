@@ -1,4 +1,4 @@
-// Open pixels: those at which the alpha or depth test of a reference may legally decide otherwise than the candidate's,
+// Open pixels: pixels at which a reference's alpha or depth test may legally come out otherwise than the candidate's,
 // so that the planes may differ.
 #pragma once
 
@@ -15,14 +15,14 @@
 
 namespace plumbline::check {
 
-/// Whether any draw tests alpha.
+/// True if a draw tests alpha.
 bool tests_alpha(const Scene& scene);
 
-/// Whether both the cleared frame and some other frame are legal: every pixel may be background, and some
-/// pixel may be of a primitive. False where legal colours are not those of the winners (Legal::color_lo).
+/// True if the cleared frame and another frame are legal: every pixel may be background, and a pixel may be of a
+/// primitive. False where legal colours are not those of the winners (Legal::color_lo).
 bool may_be_empty(const Legal& legal);
-/// Whether surfaces are drawn, and at none of their pixels the colour is known: each has a legal answer whose bound is
-/// half of the range of colours or more.
+/// True if surfaces are drawn and no pixel of theirs has a known colour: each has a legal answer whose bound is at
+/// least half of the colours' range.
 bool knows_no_color(const Legal& legal);
 
 /// 1 where the alpha test in the format `theirs` may come out otherwise than the candidate's own, for a fragment of the
@@ -31,9 +31,9 @@ bool knows_no_color(const Legal& legal);
 Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   ColorFormat theirs, double factor);
 
-/// 1 where the depth test of some fragment may come out otherwise, within the bounds of compare_depth_planes() and by
-/// interpolation along a line's major axis (bounds.h), even if a later fragment hides that fragment. Needs the
-/// candidate's records of stages 4, 5, 6 and 10; without these records nothing is open.
+/// 1 where a fragment's depth test may come out otherwise, within the bounds of compare_depth_planes() and by
+/// interpolation along a line's major axis (bounds.h), even if a later fragment hides the fragment. Needs the
+/// candidate's records of stages 4, 5, 6 and 10; without them nothing is open.
 Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
 
 /// 1 where two depths of the candidate's fragments, or of a fragment and the cleared frame, are different doubles and
@@ -41,9 +41,9 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
 /// candidate's records of stages 4 to 6; without them, or in another format than z32f, nothing is open.
 Plane<std::uint8_t> open_by_double(const FrameFormat& frame, const Records<double>& records);
 
-/// Legal winners of a pixel, each with its stencil value, where each fragment's depth is off by up to the bounds of
-/// compare_depth_planes and of a line's major axis (bounds.h). Computed from the candidate's fragments, depths and
-/// alphas (records of stages 4, 5, 6 and 9); the candidate's own visibility is not used.
+/// Legal winners of a pixel, each with its stencil value, for depths off by up to the bounds of compare_depth_planes()
+/// and of a line's major axis (bounds.h). Computed from the candidate's fragments, depths and alphas (records of stages
+/// 4, 5, 6 and 9), without its visibility.
 class LegalWinners {
  public:
   /// Each fragment has a depth.

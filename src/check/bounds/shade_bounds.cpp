@@ -57,7 +57,7 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, co
 Vec4<double> shade_error(const Scene& scene, const Draw& draw, const ShadeInputs& attributes, const ShadeInputs& errors,
                          const Roundings& roundings) {
   Vec4<double> color = attributes.color, error = errors.color;
-  Vec4<double> low = color, high = color;  // of a colour that is unknown here: what light makes of a fragment
+  Vec4<double> low = color, high = color;  // range of the colour, which light per fragment leaves unknown here
   const bool per_fragment = is_lit_per_fragment(draw), summed = draw.lit && scene.light_model.separate_specular;
   if (per_fragment) {
     error = light_error(scene, draw, false, attributes, errors, roundings);
@@ -91,7 +91,7 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const ShadeInputs
       color[c] = f * color[c] + (1 - f) * of_fog;
     }
   }
-  // Where a texel is open, so is the colour, whatever it is multiplied by.
+  // An open texel makes NaN of infinity times 0: the colour is open, too.
   for (int c = 0; c < 4; ++c) error[c] = std::isfinite(error[c]) ? error[c] : std::numeric_limits<double>::infinity();
   return error;
 }

@@ -23,7 +23,7 @@ namespace {
 /// Error of texture coordinates: of s and t, and of their product with a level's size, its fraction and the half texel.
 Vec2<double> coordinate_error(Vec2<double> st, Vec2<double> st_error) { return st_error + 4 * u * glm::abs(st); }
 
-/// Whether a place off by `error` may be half a texel off, beyond TexelRange's slopes, in a level filtered linearly.
+/// True if `error` reaches half a texel, the limit of TexelRange's slopes, in a level that may be filtered linearly.
 bool beyond_slopes(const Texture& texture, const TexelRange& range, Vec2<double> error) {
   if (range.last_linear < range.first_linear) return false;
   const TextureLevel& finest = texture.levels[static_cast<std::size_t>(range.first_linear)];

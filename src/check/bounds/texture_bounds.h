@@ -26,15 +26,15 @@ struct TexelBound {
 TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<double> st, Vec2<double> st_error,
                        double arithmetic);
 
-/// Predicted share of a pixel that is open: the bands on both sides of the lines where the nearest texel changes. With
-/// w the coordinate's error and s its slope per pixel, both in texels, a band has a half width of w/s pixels. A pixel
-/// within one pixel of a line counts w/s; where lines are less than two pixels apart (s > 1/2), each pixel counts 2 w.
-/// Where s <= w a band is two pixels wide or more: the pixel counts 1 with its centre in the band, else 0. A pixel
-/// counts 1 where linear filters have no slopes (texel_bound). `plane`: coordinates and slopes computed from the
-/// triangle's corners, because the fragment's record is what is judged.
+/// Predicted open share of a pixel: the bands on both sides of the lines where the nearest texel changes. With w the
+/// coordinate's error and s its slope per pixel, both in texels, a band has a half width of w/s pixels. A pixel within
+/// one pixel of a line counts w/s; with lines less than two pixels apart (s > 1/2), each pixel counts 2 w. With s <= w
+/// a band is at least two pixels wide: the pixel counts 1 with its centre in the band, else 0. A pixel where linear
+/// filters have no slopes (texel_bound()) counts 1. `plane`: coordinates and slopes from the triangle's corners, not
+/// from the fragment's record, which is judged.
 struct OpenShare {
   double area = 0;      ///< pixels, [0,1]
-  bool centre = false;  ///< whether the pixel's centre is in a band
+  bool centre = false;  ///< the pixel's centre is in a band
 };
 OpenShare open_share(const Texture& texture, const TexelRange& range, const PlaneValue& plane, Vec2<double> st_error);
 

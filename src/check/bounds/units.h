@@ -88,7 +88,7 @@ inline std::span<const LegalAnswer> answers_of_winner(const Legal& legal, const 
   return own == nullptr ? std::span<const LegalAnswer>() : std::span(own, 1);
 }
 
-// Whether several counts of fragments are legal at the pixel, and the candidate's is one of them.
+// True if several counts of fragments are legal at the pixel, the candidate's among them.
 inline bool is_open(const Legal& legal, const Planes& planes, int x, int y) {
   if (legal.empty() || planes.count.size() != legal.certain.size()) return false;
   const std::uint32_t count = planes.count(x, y), low = legal.certain(x, y), high = legal.possible(x, y);
@@ -115,13 +115,12 @@ inline double distance_outside(double value, double low, double high) {
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
 }
 
-/// Adds a value without a reference, such as a winner's colour where no fragment wins: differs only if not finite.
+/// Adds a value without a reference (a winner's colour where no fragment wins): it differs only if not finite.
 inline void add_finite_value(Meter& meter, double value, const Place& place) {
   meter.value(std::isfinite(value) ? 0 : kInfinite, 0, place, value, 0);
 }
 
-// Adds a value for which no bound can be computed (a triangle without area): any finite number is legal, and the item
-// counts as ambiguous.
+// Adds a value without a bound (a triangle without area): any finite number is legal, and the item is ambiguous.
 inline void add_open_value(Meter& meter, double value, const Place& place, double reference) {
   meter.ambiguous();
   meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);

@@ -21,8 +21,8 @@ Vec4<double> codes_of(const Vec4<double>& color, double scale) {
   return glm::roundEven(glm::clamp(color, 0.0, 1.0) * scale);
 }
 
-// Codes by which a reference's clear colour may be off: 1 where the float product of colour and scale may be rounded to
-// the middle between two codes, else 0.
+// Codes by which a reference's clear colour may be off: 1 where colour times scale in float may be the middle between
+// two codes, else 0.
 double cleared_codes(const FrameFormat& frame, int channel) {
   const double scale = color_scale(frame.color), code = scale * static_cast<double>(frame.clear_color[channel]);
   return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? 1 : 0;
@@ -75,8 +75,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
       double diff = std::min(difference(v, w), difference(v + bound.line_shift[c], w));
       for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
       const bool is_open = !std::isfinite(bound.color[c]);
-      // NaN of the reference is no evidence about the candidate: the reference computes 0 / 0 for a triangle without
-      // area.
+      // NaN of the reference, its 0 / 0 for a triangle without area, is no evidence about the candidate.
       if (is_open && std::isnan(w) && std::isfinite(v)) {
         meter.ambiguous();
       } else if (is_open) {
@@ -132,7 +131,7 @@ struct Layers {
   glm::bvec4 reads_clear_color{false};  // a logic op has combined it
 };
 
-// Gathers the layers of each pixel; a fragment's fault of the reference makes later values suspect.
+// Layers of each pixel. A reference's fault at a fragment makes later values suspect.
 class LayersOfPixels {
  public:
   LayersOfPixels(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
@@ -188,8 +187,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     const bool open = others_cover(x, y) || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
                       (!tied.empty() && tied(x, y) != 0);
     const Layers drawn = layers_of.at(x, y, meter);
-    // Error of a fragment enters three times: as source colour, in the source's factor, and in the factor of the
-    // frame's colour, which is at most `held` (1; in float the number of fragments).
+    // A fragment's error counts as source colour, in the source's factor, and in the factor of the frame's colour,
+    // which is at most `held` (codes: 1; float: the number of fragments).
     const double layers = reads ? std::exp2(drawn.count) - 1 : drawn.count,
                  held = scale > 0 ? 1 : std::max(1, drawn.count),
                  bound = drawn.bound * (2 + held) * (reads ? std::exp2(drawn.count - 1) : 1);

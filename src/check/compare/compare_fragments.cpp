@@ -100,9 +100,9 @@ double of_steps(const WindowTriangle<double>& t, const Conventions& conventions,
   return edge_displacement(conventions.depth_arithmetic, std::min(high - low, height), most_x);
 }
 
-// Displacement of a triangle's edges in the candidate [pixels]: that by steps, and that by its grid, which moves a
-// corner by half a step in x and in y, at most; rounded down or up, by a whole step. Without a grid, an edge function
-// in float is off by 8 u of the largest coordinates.
+// Displacement of a triangle's edges in the candidate [pixels]: by steps, and by the grid, which moves a corner by up
+// to half a step in x and in y (rounded down or up: a whole step). Without a grid, an edge function in float is off by
+// 8 u of the largest coordinates.
 double moved(const WindowTriangle<double>& t, const Conventions& conventions, double height) {
   const int bits = conventions.subpixel_bits;
   if (bits == Conventions::kFloat) {
@@ -132,8 +132,8 @@ std::size_t edges_near(const std::array<glm::dvec2, 3>& corners, glm::dvec2 p, d
   return out;
 }
 
-// Fragments. Those of samples on edges are ambiguous where open(triangle), unless two triangles share the edge, and no
-// tie rule has it so (is_owned()).
+// Fragments compared. At samples on edges they are ambiguous where open(triangle), unless two triangles share the edge
+// and is_owned() is false.
 template <class Open>
 Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions, glm::dvec2 sample, double height, Open open) {
@@ -145,8 +145,8 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
     return std::ranges::binary_search(candidate.covered, draw_order(c), {},
                                       [](const Covered& o) { return draw_order(o); });
   };
-  // Number of the triangle's edges within reach of p: as far as the candidate may move them, and, by_both, exact, too.
-  // By one grid both sides snap a corner to one place.
+  // Number of the triangle's edges within reach of p: their displacement by the candidate and, by_both, by exact. On
+  // one grid, both sides snap a corner to one position.
   const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
     const WindowTriangle<double>& t = candidate.triangles[triangle];
     if (by_one_grid && !has_corner_between_places(t, conventions, SnappedBy::conventions))
@@ -190,8 +190,8 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
   const double middle = middle_of(conventions.depth_rounding);
   const OffsetErrors offsets(scene, conventions);
   const glm::dvec2 frame(scene.frame.width, scene.frame.height);
-  // Error of a stranger's depth in float [window z]: by the declared arithmetic; else, in formats that are float, by
-  // planes from the window's origin.
+  // Error of a foreign depth in float [window z]: by the declared arithmetic; else, in z32f, by planes from the
+  // window's origin.
   const auto float_error = [&](const WindowTriangle<double>& t, const Covered& c) {
     const bool is_declared = conventions.depth_arithmetic != Conventions::DepthArithmetic::in_double;
     if (from_origin == 0 || (!is_declared && scene.frame.depth != DepthFormat::z32f)) return 0.0;
@@ -271,12 +271,12 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
 
 namespace {
 
-// Whether shaded colours may lie outside [0, 1]: texels of a float format do.
+// True if shaded colours may lie outside [0, 1]: texels of a float format do.
 bool may_exceed_one(const Scene& scene, const Draw& draw) {
   return draw.texture && largest_texel(scene.textures.at(draw.texture->texture)) > 1;
 }
 
-// `wanted`, or what it is clamped to in [0, 1], whichever is nearer to `value`.
+// The nearer to `value`, per channel, of `wanted` and `wanted` clamped to [0, 1].
 Vec4<double> clamped_or_not(const Vec4<double>& value, const Vec4<double>& wanted) {
   Vec4<double> out = wanted;
   for (int k = 0; k < 4; ++k) {

@@ -37,19 +37,19 @@ Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
 
 namespace {
 
-// Whether the candidate shows no winners, or a plane of them that has the oracle's size; if not, `why` says so.
+// True if the candidate shows no winners, or a plane of them of the oracle's size; if not, `why` says so.
 bool fits_winners(const Planes& candidate, const Legal& legal, std::string& why) {
   return candidate.id.empty() || same_size(candidate.id, legal.certain, why);
 }
 std::int32_t winner_at(const Planes& planes, int x, int y) { return planes.id.empty() ? kBackground : planes.id(x, y); }
 
-// Whether the background is the only legal answer.
+// True if the background is the only legal answer.
 bool is_cleared(std::span<const LegalAnswer> answers) {
   return !answers.empty() &&
          std::ranges::all_of(answers, [](const LegalAnswer& a) { return a.primitive == kBackground; });
 }
 
-// The clear depth where only that is legal: merge judges it, and stage depth only for candidates without colour.
+// Clear depth where only the background is legal: merge judges it; stage depth only for candidates without colour.
 void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate, const Legal& legal, int x, int y) {
   std::string why;
   if (candidate.depth.empty() || legal.first.empty() || !same_size(candidate.depth, legal.certain, why)) return;

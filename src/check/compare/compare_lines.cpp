@@ -20,7 +20,7 @@ struct Line {
   const WindowTriangle<double>* window = nullptr;
   std::vector<glm::ivec2> pixels;
 };
-// By primitive, and among a primitive's lines (the edges of a triangle that is not filled) by order.
+// Key: primitive, and order among the primitive's lines (the edges of a triangle that is not filled).
 using LinesOfPixels = std::map<std::pair<std::uint32_t, std::size_t>, Line>;
 
 LinesOfPixels lines_of(const Records<double>& r) {

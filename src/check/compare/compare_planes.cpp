@@ -49,10 +49,9 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
 
 namespace {
 
-// Depths that another renderer's frame may hold where the winner writes no depth (depth_mask off): the values of the
-// fragment that left the candidate's depth, and, where a depth test is open (open_pixels.h), the values of fragments
-// that tie with that fragment. With a stencil test at such a pixel every fragment counts as tied, because the outcome
-// of a stencil test depends on the fragments before.
+// Depths that another renderer's frame may hold where the winner writes no depth (depth_mask off): values of the
+// fragment that left the candidate's depth and, where a depth test is open (open_pixels.h), of fragments that tie with
+// it. With a stencil test at such a pixel, whose outcome depends on earlier fragments, every fragment counts as tied.
 class DepthsBeneath {
  public:
   DepthsBeneath(const Scene& scene, const Capture& candidate, const DrawIndex& draws)
@@ -133,7 +132,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
   const DrawIndex draws(scene);
   const DepthsBeneath beneath(scene, candidate, draws);
   const OthersCover others_cover(a, b);
-  // Whether the depth may be left by a fragment beneath the winner that only one side has.
+  // True if a fragment beneath the winner that one side lacks may have left the depth.
   const auto others_left_it = [&](int x, int y) { return !depths_replace(scene) && others_cover(x, y); };
   return where_winners_agree(a, b, &Planes::depth, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const double z = a.depth(x, y), z_ref = b.depth(x, y);

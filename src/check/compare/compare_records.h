@@ -1,5 +1,5 @@
-// Comparators of records, stages 0 to 7, 9 and 10 (8: compare_texels.h). Tolerances are proportional to magnitudes of
-// the candidate's records.
+// Comparators of records, stages 0 to 2, 4 to 7, 9 and 10 (3: compare_polygons.h, 8: compare_texels.h). Tolerances are
+// proportional to magnitudes of the candidate's records.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@
 
 namespace plumbline::check {
 
-/// Compares matrices with a reference's that are rounded to float, too, except the normal matrix, which OpenGL does not
-/// hand out. Unit: 1e-12 of the column's largest entry, at least 1e-12.
+/// Compares matrices with a reference's matrices in float, except the normal matrix, which OpenGL does not hand out.
+/// Unit: 1e-12 of the column's largest entry, at least 1e-12.
 Measurement compare_rounded_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
 /// Precision in which a renderer inverts the model-view M for its normal matrix N.
 enum class Inversion { in_double, in_float };
@@ -40,7 +40,7 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
 /// Underflow and overflow of a reference's float arithmetic.
 struct FloatRange {
   double underflow = kGradualUnderflow;
-  /// Why a channel whose power overflows (light_bounds.h) is the reference's fault; empty: it is not.
+  /// The reference's fault where a channel's power overflows (light_bounds.h); empty: none.
   std::string_view overflow = {};
 };
 /// Compares colours at vertices. Tolerance of lit colours: `factor` u of LightBounds::magnitude, plus
@@ -66,18 +66,18 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
 /// Compares fragments of stage 5, both sides sorted by draw_order(): each extra or missing fragment is a difference of
 /// 1.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
-/// compare_covered() for a candidate whose tie rule or grid is not the dialect's: an extra or missing fragment is
-/// ambiguous where its sample is no farther from an edge of the candidate's triangle than the edge may be moved by
-/// snapping to the declared grid (of 1/256 pixel: the same as exact's; none: by rounding in float), by exact's snapping
-/// to 1/256 pixel, and by stepping in float where depth_arithmetic says so, together. But a sample on an edge that two
-/// triangles share (shared_edges.h), and beside none of their others, is in exactly one of them: else it is a
-/// difference, unless the tie rule is inclusive (both) or exclusive (neither). `sample`: sample position [pixels from
-/// the pixel's corner of smallest coordinates]. `height`: the frame's [pixels]; edges are stepped in its rows.
+/// compare_covered() for a candidate whose tie rule or grid is not the dialect's. An extra or missing fragment is
+/// ambiguous within d of an edge of the candidate's triangle, d the sum of the edge's displacements: by snapping to the
+/// declared grid (1/256 pixel: as exact; none: by rounding in float), by exact's snapping to 1/256 pixel, and by
+/// stepping in float where depth_arithmetic declares it. But a sample on an edge that two triangles share
+/// (shared_edges.h), and near none of their other edges, is in exactly one of the two (inclusive: or both; exclusive:
+/// or neither); else it differs. `sample`: sample position [pixels from the pixel's corner of smallest coordinates].
+/// `height`: the frame's [pixels]; edges are stepped in its rows.
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
                                          const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5),
                                          double height = kNoSides.y);
-/// Whether the candidate may have snapped a corner to several positions of its grid: it handed none out, and a corner
-/// lies within 4 u of the middle between two (rounded to the nearest) or within kOfFixedPoint of one (down, up).
+/// True if the candidate may have snapped a corner to several grid positions: its records hold none, and a corner lies
+/// within 4 u of the middle between two (rounded to the nearest) or within kOfFixedPoint of one (down, up).
 bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, SnappedBy snapped_by);
 /// compare_covered() for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Fragments at
 /// edges are ambiguous only in triangles that has_corner_between_places().
@@ -91,17 +91,15 @@ struct FragmentSums {
 };
 FragmentSums fragment_sums(std::span<const Covered> fragments, std::span<const WindowTriangle<double>> triangles,
                            int width, int height);
-/// Whether planes.count, and planes.id_sum unless that is empty, are the sums of the records' fragments. False if
+/// True if planes.count, and planes.id_sum unless it is empty, are the sums of the records' fragments. False if
 /// planes.count is empty.
 bool are_sums_of(const Records<double>& records, const Planes& planes);
-/// compare_covered() with open pixels, where `legal` allows several counts (compare_coverage(), compare_planes.h). If a
-/// fragment differs at a pixel that is not open, differences at open pixels are ambiguous; if fragments at open pixels
-/// alone differ, these count as different.
+/// compare_covered() with open pixels (`legal` allows several counts; compare_coverage(), compare_planes.h).
+/// Differences at open pixels are ambiguous if a fragment differs at a pixel that is not open, else different.
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal);
 /// Compares depths [steps of the depth format], rounded as the candidate's conventions declare. `from_origin`:
-/// allowance for a foreign renderer that interpolates by planes in float [u of bounds_from_origin()'s magnitude]; 0:
-/// none. The allowance applies to float formats; to codes only where the conventions declare a depth_arithmetic in
-/// float, because elsewhere a truncated code would pass.
+/// allowance for a foreign renderer's planes in float [u of bounds_from_origin()'s magnitude]; 0: none. The allowance
+/// applies to z32f; to codes only under a declared depth_arithmetic in float, as elsewhere truncated codes would pass.
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions = {}, double from_origin = 0);
 /// Compares interpolated colours. `from_origin`: as in compare_depth(); above 0, the error of the declared
@@ -114,8 +112,7 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
 /// clamped to [0, 1].
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, double copies = 0);
-/// Compares a varying that is not lit, at the vertices, bit for bit (as floats): stage light only copies such a
-/// varying.
+/// Compares a varying that is not lit at the vertices, bit for bit (as floats), as stage light only copies it.
 Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference);
 /// Compares `drawn` of each fragment; a difference is 1. No items where the candidate's records do not hold `drawn`.
 Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference);

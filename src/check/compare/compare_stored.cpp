@@ -25,7 +25,7 @@ StoredComparison row(std::string what, Measurement m, double codes = 0, std::str
   return {std::move(what), c.outcome, std::move(c.measurement), codes, std::move(c.note)};
 }
 
-// In values. Codes are subtracted as the integers that they are, so that one step is 1/(2^n - 1), rounded once.
+// Difference in values. Codes are subtracted as integers, so that one step is 1/(2^n - 1), rounded once.
 double difference_of(double a, double scale_a, double b, double scale_b) {
   if (!std::isfinite(a) || !std::isfinite(b)) return difference(a, b);
   if (scale_a == scale_b) return std::abs(a - b) / scale_a;

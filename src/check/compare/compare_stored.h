@@ -1,4 +1,4 @@
-// Two images, or two captures, as they are stored: no scene, no rules, no ledger; number against number.
+// Comparison of two stored images, or captures, number against number: without scene, rules or ledger.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace plumbline::check {
 /// 0, an infinity equals only itself, NaN equals nothing, because two pictures with NaN in one place are not proven
 /// equal.
 struct StoredComparison {
-  std::string what;  ///< name of the channel, of the array (capture_columns.h), or of what else differs
+  std::string what;  ///< channel, array (capture_columns.h), or property that differs
   Outcome outcome = Outcome::equal;
   Measurement measurement;
   double codes = 0;  ///< largest code (2^n - 1) if both sides hold n-bit codes; 0: floats, or different formats
@@ -28,10 +28,9 @@ struct StoredComparison {
 /// values in [0,1]].
 std::vector<StoredComparison> compare_images(const StoredImage& a, const StoredImage& b, double tolerance);
 
-/// One row per array that either capture holds, in the order of visit_capture() (capture_columns.h), after a row
-/// `frame` where the sizes differ. Records are compared in the order in which they are stored. `tolerance` is for
-/// floats (a capture's colours are floats: one code apart may come to a little more than 1/255), integers must be
-/// equal. An array that one capture alone holds is `missing`.
+/// Rows of two captures: `frame` where the sizes differ, then one for each array that either holds, in the order of
+/// visit_capture() (capture_columns.h). Records are compared in stored order, floats with `tolerance` (colours are
+/// floats: one code may be slightly more than 1/255), integers exactly. An array that one side lacks is `missing`.
 std::vector<StoredComparison> compare_captures(const Capture& a, const Capture& b, double tolerance);
 
 /// |a - b| times `amplify` (none: such that the largest finite one is 1), at most 1. Of three pairs of channels or

@@ -18,7 +18,7 @@ namespace plumbline::check {
 
 namespace {
 
-// Levels of detail below this one count as it: their texels are those of magnification.
+// Lower limit of compared levels of detail: every texture is magnified there.
 constexpr double kLeastLod = -16;
 
 // A fragment's texture, and its coordinates in the texture.
@@ -65,7 +65,7 @@ double lod_rounding(const Records<double>& records, const Covered& c, const Text
   const double error = glm::length(size * Vec2<double>(rounding));
   if (!std::isfinite(error) || !std::isfinite(rho)) return 0;
   if (error < rho) return -std::log2(1 - error / rho);  // down to rho - error; up is less
-  // Nothing of rho but its rounding is known: either level is at most that of rho + error.
+  // rho is within its rounding error: both levels are at most that of rho + error.
   return std::max(0.0, std::log2(rho + error) + texture.sampler.lod_bias - kLeastLod);
 }
 
@@ -77,8 +77,8 @@ TexelRange legal_texels(const Textured& of, double lod_lo, double lod_hi, const 
   return of.st ? math::texel_range(*of.texture, *of.st, lod_lo, lod_hi, rules) : none;
 }
 
-// Legal texels as legal_texels() has them, at texel coordinates computed in float: 4 u of s and of t off
-// (texture_bounds.h; largest seen of a right renderer: the neighbouring texel, texture/borders_at_centres).
+// legal_texels() at texel coordinates in float, 4 u of s and of t off (texture_bounds.h; largest seen of a right
+// renderer: the neighbouring texel, texture/borders_at_centres).
 TexelRange legal_texels_in_float(const Textured& of, double lod_lo, double lod_hi, const math::LevelRules& rules) {
   TexelRange out = legal_texels(of, lod_lo, lod_hi, rules);
   if (!of.st) return out;

@@ -16,8 +16,8 @@ namespace {
 using Run = std::span<const WindowTriangle<double>>;
 using Colors = std::array<Vec4<double>, 3>;
 
-// Number of corners by which another triangle is turned to fit `t` best: a renderer may begin a triangle at any of its
-// corners, a line at its first alone. apart(turn): the misfit; the smallest turn wins ties.
+// Rotation (number of corners) by which another triangle fits `t` best: a renderer may begin a triangle at any corner,
+// a line at its first alone. apart(turn): the misfit; the smallest turn wins ties.
 template <class Apart>
 std::size_t best_turn(const WindowTriangle<double>& t, Apart apart) {
   std::size_t best = 0;
@@ -48,7 +48,7 @@ class RunComparison {
   }
 
  private:
-  // Same kind and facing, at places that are the same but for rounding.
+  // Equality of kind and facing, and of positions but for rounding.
   bool is_alike(const WindowTriangle<double>& a, const WindowTriangle<double>& b) const {
     if (a.corners != b.corners || a.front != b.front) return false;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -153,8 +153,8 @@ class RunComparison {
     meter_.value(difference(a.width, b.width), 0, at(number, "width"), a.width, b.width);
   }
 
-  // Whether `other` is a place of the grid that a stranger may give to `place`, beside `own`. To the nearest, it is the
-  // second of two that are equally near: no specification says which is taken; exact takes the even one.
+  // True if a foreign renderer may snap `place` to the grid position `other`, beside `own`. Rounded to the nearest:
+  // `other` is as near as `own`; no specification says which is taken; exact takes the even one.
   bool may_be_snapped(double place, double own, double other) const {
     if (conventions_.subpixel_bits == Conventions::kFloat || conventions_.subpixel_bits > 8) return false;
     if (conventions_.subpixel_rounding != Conventions::Rounding::nearest) {

@@ -24,8 +24,7 @@ struct Spot {
   Vec2<double> middle, reach;
 };
 
-// Grid positions [its steps] of p_win within its error; on grids rounded down or up, within its error and
-// kOfFixedPoint.
+// Grid positions [the grid's steps] of p_win within its error (rounded down or up: plus kOfFixedPoint).
 Spot snapped_spot(const WindowCorner& c, const Conventions& grid) {
   const bool is_to_nearest = grid.subpixel_rounding == Conventions::Rounding::nearest;
   Spot out{};
@@ -98,8 +97,8 @@ WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width
   return out;
 }
 
-// Each triangle of the fan is faced, and culled, by itself; by FacingArea::either also as the whole polygon is. One
-// without area covers nothing, drawn or not, whatever it faces.
+// Fan of triangles, each faced and culled by itself; by FacingArea::either also as the whole polygon. One without area
+// covers nothing, drawn or not, whatever its facing.
 std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const WindowCorner> corners,
                               const Conventions& grid, FacingArea of) {
   std::vector<WindowAnswer> out;

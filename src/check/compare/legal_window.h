@@ -59,7 +59,7 @@ class LegalWindow {
 
  private:
   bool fits(const WindowTriangle<double>& t, const WindowAnswer& answer) const;
-  // None: a line, a point, or a corner without a finite window position. `draw`: the number of the polygon's draw.
+  // Corners in the window; none: a line, a point, or a corner without a finite window position. `draw`: draw number.
   std::vector<WindowCorner> corners_of(const ClipPolygon& polygon, std::size_t draw) const;
 
   const Scene& scene_;

@@ -21,8 +21,8 @@ inline Measurement where_winners_agree(const Planes& a, const Planes& b, auto pl
   });
 }
 
-/// Whether the two sides cover a pixel with different fragments, as where they draw lines by different rules; coverage
-/// judges such pixels. Counts are compared as well as sums, because primitive 0 has weight 0 in the sum.
+/// Pixels that the two sides cover with different fragments (lines by different rules); coverage judges them. Counts
+/// are compared as well as sums, because primitive 0 has weight 0 in the sum.
 class OthersCover {
  public:
   OthersCover(const Planes& a, const Planes& b) : a_(a), b_(b) {

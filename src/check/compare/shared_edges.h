@@ -13,17 +13,17 @@
 
 namespace plumbline::check {
 
-/// Corners in the window [pixels], as they are or as they are snapped.
+/// Corners in the window [pixels], unsnapped or snapped.
 std::array<glm::dvec2, 3> window_corners(const WindowTriangle<double>& t, bool snapped);
 
 class SharedEdges {
  public:
-  /// Edges between the corners as they are, or as they are snapped.
+  /// Edges between the unsnapped or the snapped corners.
   SharedEdges(std::span<const WindowTriangle<double>> triangles, bool snapped);
 
-  /// The triangle [index] on the other side of an edge of triangle `t`, where p_win lies on that edge, by exact
-  /// arithmetic, between its ends. None: p_win lies on no edge, or two triangles do not share it alone. OpenGL 2.1,
-  /// 3.5.1: a sample there is in exactly one of the two.
+  /// Neighbour [index] across the edge of triangle `t` that p_win lies on, between the edge's ends, by exact
+  /// arithmetic; none: on no edge, or on one not shared by exactly two triangles. A sample there is in exactly one of
+  /// the two (OpenGL 2.1, 3.5.1).
   std::optional<std::uint32_t> beyond(std::uint32_t t, glm::dvec2 p_win) const;
 
  private:
