@@ -24,14 +24,21 @@ WindowCorners window_corners(const Projected& scene, const Triangle& t) {
   return out;
 }
 
-// Largest error(corners) of the pieces near the ray d, a piece being any three corners of an outline; infinite where no
-// piece is near, or one may have no area. Corners displaced by `reach`: terms and area change by 4 reach / altitude.
+// Pieces near a ray d: any three corners of an outline, within twice their displacement and `margin` [pixels] of d.
+struct Near {
+  glm::dvec3 d;
+  double margin;
+  double without_area;  // error of a piece that may have no area
+};
+
+// Largest error(corners) of the pieces near a ray; infinite where none is. Corners displaced by `reach`: terms and area
+// change by 4 reach / altitude.
 template <class Error>
-double error_near(const Projected& scene, const Triangle& t, std::span<const glm::dvec2> outline, glm::dvec3 d,
+double error_near(const Projected& scene, const Triangle& t, std::span<const glm::dvec2> outline, const Near& near,
                   Error error) {
   double out = -1;
   each_piece(outline, [&](const std::array<glm::dvec2, 3>& piece) {
-    if (distance_to_triangle(glm::dvec2(d), piece) > 2 * t.reach) return;
+    if (distance_to_triangle(glm::dvec2(near.d), piece) > 2 * t.reach + near.margin) return;
     const double height = altitude(piece[0], piece[1], piece[2]) - 2 * (t.reach - scene.snap);
     WindowCorners corners;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -40,7 +47,7 @@ double error_near(const Projected& scene, const Triangle& t, std::span<const glm
       corners[i] = {piece[i] + 0.5 * glm::dvec2(scene.width, scene.height), to_window(t, z_view)};
     }
     const double off = 1 + 4 * t.reach / height;
-    out = std::max(out, height > 0 ? off * off * error(corners) : kInfinity);
+    out = std::max(out, height > 0 ? off * off * error(corners) : near.without_area);
   });
   return out < 0 ? kInfinity : out;
 }
@@ -50,15 +57,15 @@ glm::dvec2 frame_of(const Projected& scene) { return {scene.width, scene.height}
 // Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and, where the near and
 // the far plane cut, depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel].
 template <class Error>
-double error_of_pieces(const Projected& scene, const Triangle& t, double slope, glm::dvec3 d,
+double error_of_pieces(const Projected& scene, const Triangle& t, double slope, const Near& near,
                        const PieceAltitudes& altitudes, Error error) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   // A plane through corners displaced by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
   const auto of_pieces = [&](const std::vector<glm::dvec2>& outline, double altitude, glm::dvec2 extent) {
-    const double near = error_near(scene, t, outline, d, error);
-    if (scene.depth_clamp) return near;
+    if (scene.depth_clamp) return error_near(scene, t, outline, near, error);
+    const double of_near = error_near(scene, t, outline, {near.d, near.margin, kInfinity}, error);
     const double steeper = slope * (1 + 4 * t.reach / altitude);
-    return std::min(near, depth_error_of_pieces(arithmetic, altitude, steeper, extent, frame_of(scene)));
+    return std::min(of_near, depth_error_of_pieces(arithmetic, altitude, steeper, extent, frame_of(scene)));
   };
   const double framed = of_pieces(t.outline, altitudes.framed, {scene.width, scene.height});
   if (t.guarded.extent == glm::dvec2(0)) return framed;
@@ -73,7 +80,7 @@ double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, c
   const glm::dvec2 p = glm::dvec2(d) + 0.5 * glm::dvec2(scene.width, scene.height);
   const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane));
   const auto error = [&](const WindowCorners& corners) { return depth_error(arithmetic, corners, p, frame_of(scene)); };
-  const double out = t.cut ? error_of_pieces(scene, t, slope, d, altitudes, error) : 0;
+  const double out = t.cut ? error_of_pieces(scene, t, slope, {d, 0, kInfinity}, altitudes, error) : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }
 
@@ -85,7 +92,8 @@ double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dve
   const auto error = [&](const WindowCorners& corners) {
     return shares_error(arithmetic, corners, p, frame_of(scene));
   };
-  const double of_pieces = t.cut ? error_of_pieces(scene, t, slope, d, altitudes, error) : 0,
+  const Near near{d, glm::length(scene.sample), 0};  // d: the pixel's centre, where a sample is covered
+  const double of_pieces = t.cut ? error_of_pieces(scene, t, slope, near, altitudes, error) : 0,
                out = std::isfinite(of_pieces) ? of_pieces : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }

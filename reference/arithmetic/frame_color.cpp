@@ -1,7 +1,10 @@
 #include "reference/arithmetic/frame_color.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "reference/arithmetic/bounded.h"
 
 namespace plumbline::math {
 
@@ -19,13 +22,11 @@ Interval greater(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::ma
 
 /// Blending of colours and factors in units of the largest code (`one`), in which stored colours are whole numbers.
 struct Blender {
-  const ColorInterval &source, &destination;
-  glm::dvec4 constant;
+  const ColorInterval &source, &destination, &constant;
   double one;
 
   Interval factor(BlendFactor f, std::size_t channel) const {
-    const Interval all{one, one}, fixed{constant[static_cast<int>(channel)], constant[static_cast<int>(channel)]};
-    const Interval fixed_alpha{constant.a, constant.a};
+    const Interval all{one, one};
     switch (f) {
       case BlendFactor::zero: return {0, 0};
       case BlendFactor::one: return all;
@@ -37,17 +38,27 @@ struct Blender {
       case BlendFactor::one_minus_source_alpha: return all - source[3];
       case BlendFactor::destination_alpha: return destination[3];
       case BlendFactor::one_minus_destination_alpha: return all - destination[3];
-      case BlendFactor::constant_color: return fixed;
-      case BlendFactor::one_minus_constant_color: return all - fixed;
-      case BlendFactor::constant_alpha: return fixed_alpha;
-      case BlendFactor::one_minus_constant_alpha: return all - fixed_alpha;
+      case BlendFactor::constant_color: return constant[channel];
+      case BlendFactor::one_minus_constant_color: return all - constant[channel];
+      case BlendFactor::constant_alpha: return constant[3];
+      case BlendFactor::one_minus_constant_alpha: return all - constant[3];
       case BlendFactor::source_alpha_saturate: return channel == 3 ? all : lesser(source[3], all - destination[3]);
     }
     return all;
   }
 
+  Interval source_term(const BlendTerm& term, std::size_t c) const { return source[c] * factor(term.source, c) / one; }
+  Interval destination_term(const BlendTerm& term, std::size_t c) const {
+    return destination[c] * factor(term.destination, c) / one;
+  }
+  /// Largest sum of the terms' absolute values, of which roundings in float take shares.
+  double magnitude(const BlendTerm& term, std::size_t c) const {
+    const auto largest = [](Interval v) { return std::max(std::abs(v.lo), std::abs(v.hi)); };
+    return largest(source_term(term, c)) + largest(destination_term(term, c));
+  }
+
   Interval operator()(const BlendTerm& term, std::size_t c) const {
-    const Interval s = source[c] * factor(term.source, c) / one, d = destination[c] * factor(term.destination, c) / one;
+    const Interval s = source_term(term, c), d = destination_term(term, c);
     switch (term.equation) {
       case BlendEquation::add: return s + d;
       case BlendEquation::subtract: return s - d;
@@ -147,23 +158,32 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
   const Interval lowest{0, 0}, highest{unit_, unit_};
   const auto clamped = [&](Interval v) { return codes_ ? lesser(greater(v, lowest), highest) : v; };
   const double half = blends_codes_ ? 0.5 : 0;
-  ColorInterval source, blended, result;
+  constexpr double kRoundings = 4;  // in float, of a factor, two products and their sum
+  ColorInterval source, blended, result, constant = around(glm::dvec4(0), 0);
+  std::array<double, 4> rounding{};  // of blending in float
   for (std::size_t c = 0; c < 4; ++c) source[c] = clamped({color[c].lo * unit_, color[c].hi * unit_});
   for (std::size_t c = 0; c < 4; ++c) blended[c] = clamped({source[c].lo - half, source[c].hi + half});
+  if (state.blend) constant = around(glm::dvec4(state.blend->color) * unit_, half);
   for (std::size_t c = 0; c < 4; ++c) {
     if (!state.blend || state.logic_op) {
       result[c] = source[c];
       continue;
     }
-    const Blender blender{blended, stored_, glm::dvec4(state.blend->color) * unit_, unit_};
-    const Interval sum = blender(c < 3 ? state.blend->rgb : state.blend->alpha, c);
-    result[c] = clamped({sum.lo - 2 * half, sum.hi + 2 * half});
+    const Blender blender{blended, stored_, constant, unit_};
+    const BlendTerm& term = c < 3 ? state.blend->rgb : state.blend->alpha;
+    const bool multiplies = term.equation != BlendEquation::min && term.equation != BlendEquation::max;
+    const Interval sum = blender(term, c);
+    const double products = multiplies ? 2 * half : 0;
+    result[c] = clamped({sum.lo - products, sum.hi + products});
+    rounding[c] = !multiplies        ? 0
+                  : blends_in_float_ ? kRoundings * kFloatRounding * blender.magnitude(term, c)
+                                     : 0x1p-48 * std::max(std::abs(sum.lo), std::abs(sum.hi));
   }
-  // Slack of the rounding to codes. Not blended: two float roundings (colour, scale to codes). Blended in double: a few
-  // 2^-53 of products of codes. Blended in float: 8 u of the largest code (factor and product of two terms, the stored
+  // Slack of the rounding to codes. Not blended: two float roundings (colour, scale to codes). Blended in double: ten
+  // 2^-53 of the largest code. Blended in float: 8 u of the largest code (factor and product of two terms, the stored
   // colour, the sum, the scale).
   const bool blends = state.blend && !state.logic_op;
-  const double either_way = !blends ? unit_ * 0x1p-23 : blends_in_float_ ? unit_ * 0x1p-21 : 0x1p-36;
+  const double either_way = !blends ? unit_ * 0x1p-23 : blends_in_float_ ? unit_ * 0x1p-21 : unit_ * 0x1p-49;
   const auto code = [&](double v) { return to_whole(rounding_, std::clamp(v, 0.0, unit_)); };
   const auto codes = [&](Interval v) -> Interval { return {code(v.lo - either_way), code(v.hi + either_way)}; };
   for (std::size_t c = 0; c < 4; ++c) {
@@ -176,8 +196,7 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
       written_[c] = result[c];
       stored_[c] = codes(result[c]);
     } else {
-      const double off = blends ? 0x1p-48 : 0;
-      written_[c] = stored_[c] = {in_float(lo - off * std::abs(lo)), in_float(hi + off * std::abs(hi))};
+      written_[c] = stored_[c] = {in_float(lo - rounding[c]), in_float(hi + rounding[c])};
     }
   }
 }

@@ -149,9 +149,10 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
     // Change of N.L and of the specular power's base by the inputs' errors.
     const double l_moved = 2 * off / r.distance, n_l_moved = errors.n_eye + length * l_moved;
     const double half_length = std::max(glm::length(r.to_light + e), 1e-6);
-    const double h_moved = model.specular == LightModel::Specular::half_vector
-                               ? errors.n_eye + length * 2 * (l_moved + e_moved) / half_length
-                               : 2 * length * n_l_moved + 2 * length * (errors.n_eye + e_moved) + l_moved + e_moved;
+    const double h_moved =
+        model.specular == LightModel::Specular::half_vector
+            ? errors.n_eye + length * 2 * (l_moved + e_moved) / half_length
+            : 2 * length * n_l_moved + 2 * length * (errors.n_eye + length * e_moved) + l_moved + e_moved;
     const Vec3<double> white = Vec3<double>(light.ambient) + std::max(n_dot_l, 0.0) * Vec3<double>(light.diffuse) +
                                p.value * Vec3<double>(light.specular);
     out.inherited +=

@@ -76,6 +76,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   const Mesh& mesh = scene.meshes[draw.mesh];
   const Matrices<double> m = double_matrices(scene, draw);
   const glm::dmat4 clip = m.projection * m.model_view;
+  if (out.perspective) out.distance_per_w = 1 / std::abs(m.projection[2][3]);
   const glm::dmat4 clip_size = sizes(m.projection) * sizes(m.model_view);
   const glm::dvec2 half(0.5 * scene.frame.width, 0.5 * scene.frame.height);
   const std::vector<std::uint32_t> point = weld(mesh);
@@ -117,10 +118,11 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
 }
 
 /// Errors in float of inside_planes()' distances, for a corner of that size.
-std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& size, double margin) {
+std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& size, double margin, bool deep) {
   const glm::dvec4 error = kRoundingsCut * kFloatRounding * size;
   const double x = error.x + (0.5 * scene.width + margin) * error.w;
   const double y = error.y + (0.5 * scene.height + margin) * error.w;
+  if (deep) return {error.w, 0, x, x, y, y};
   const double z = error.z + error.w;
   return {z, z, x, x, y, y};
 }
@@ -133,12 +135,12 @@ std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, dou
   std::array<double, 6> inside{
       c.v.z + c.z,           c.v.z - c.z, reach.x * c.v.z - at.x, reach.x * c.v.z + at.x, reach.y * c.v.z - at.y,
       reach.y * c.v.z + at.y};
-  const std::array<double, 6> error = plane_errors(scene, c.size, margin);
-  for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
   if (deep) {  // the sides meet at the eye: nothing is behind it
-    inside[0] = c.v.z + kRoundingsCut * kFloatRounding * c.size.w;
+    inside[0] = c.v.z;
     inside[1] = 1;  // everything, and at the cuts between as well
   }
+  const std::array<double, 6> error = plane_errors(scene, c.size, margin, deep);
+  for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
   return inside;
 }
 
@@ -257,7 +259,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   std::array<bool, 6> may_cut{};
   for (const Corner* corner : c) {  // a corner on a plane of the view volume may or may not be cut
     const auto inside = inside_planes(scene, *corner, 0, scene.depth_clamp);
-    const auto error = plane_errors(scene, corner->size, 0);
+    const auto error = plane_errors(scene, corner->size, 0, scene.depth_clamp);
     for (std::size_t p = 0; p < 6; ++p) may_cut[p] |= inside[p] < 4 * error[p];
   }
   t.cuts = static_cast<int>(std::ranges::count(may_cut, true));

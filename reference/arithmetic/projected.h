@@ -96,10 +96,11 @@ struct Projected {
   std::vector<LightSource<double>> lights;
   std::vector<double> light_errors;  ///< one per light (color_error.h)
   bool perspective = true;
-  bool depth_clamp = false;  ///< no near and far plane
-  Conventions conventions;   ///< of the renderer whose legal answers are wanted
-  double step = 0;           ///< h: largest displacement of a vertex by snapping, per axis [pixels]
-  double snap = 0;           ///< length of that displacement, sqrt(2) h [pixels]
+  double distance_per_w = 0;  ///< distance before the eye, by clip w [eye units]; 0: orthographic, w is 1 everywhere
+  bool depth_clamp = false;   ///< no near and far plane
+  Conventions conventions;    ///< of the renderer whose legal answers are wanted
+  double step = 0;            ///< h: largest displacement of a vertex by snapping, per axis [pixels]
+  double snap = 0;            ///< length of that displacement, sqrt(2) h [pixels]
   DepthFormat depth = DepthFormat::z24;
   /// Sample offset from the pixel's centre [pixels] (scene/antialias.h). The window is moved by -sample, so that a
   /// pixel's centre stands for its sample. Colours are evaluated at the true centre (to_centre()).

@@ -18,6 +18,11 @@ struct LevelRules {
   int weight_bits = Conventions::kFloat;  ///< fraction bits of the weights of texels and levels
 };
 LevelRules level_rules(const Conventions& conventions);
+/// Lower row of the 2 x 2 square of row `y`. Squares begin at the first row: at the lowest one, or at the highest one.
+inline int lower_row_of_square(Conventions::Rows rows, int height, int y) {
+  const int shift = rows == Conventions::Rows::from_top ? height & 1 : 0;
+  return ((y + shift) & ~1) - shift;
+}
 
 /// LOD lambda, with the texture's bias and limits (equations 3.17 to 3.22), from the derivatives of (s, t) by window x
 /// and y [1 / pixel]; where these are 0, min_lod.

@@ -18,15 +18,15 @@ using ThreeReals = std::array<Real, 3>;
 /// a perspective mapping has one direction and a monotone length, so that a difference lies between the derivatives at
 /// both pixels. Each coordinate in float is a quotient of sums with an error of 3 u of their terms (slopes from the
 /// window's origin): 6 u for a difference, relative to its length; a logarithm in float adds some u of its magnitude.
-void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, const math::LevelRules& rules, double& lo,
-                     double& hi) {
+void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int lower_row, const math::LevelRules& rules,
+                     double& lo, double& hi) {
   constexpr double kRounding = 1.0 / 16777216.0;
   const TextureLevel& base = t.texture.levels[static_cast<std::size_t>(t.texture.sampler.base_level)];
   const glm::dvec2 size(base.width, base.height);
   lo = std::numeric_limits<double>::infinity();
   hi = -lo;
   for (int k = 0; k < 4; ++k) {
-    const int qx = (x & ~1) + k % 2, qy = (y & ~1) + k / 2;
+    const int qx = (x & ~1) + k % 2, qy = lower_row + k / 2;
     const auto b = t.weights.at(qx, qy);
     Real q = 0;
     for (std::size_t i = 0; i < 3; ++i) q += b[i] * t.triangle.v[i].inv_w;
@@ -104,7 +104,9 @@ void filter_texels(const Scene& scene, const Records<double>& records, const Con
       if (own_lod && !std::isnan(records.texels[i].lod))
         texel.color = math::filtered_texel(texture, at, records.texels[i].lod, rules);
       double lo = 0, hi = 0;
-      if (math::depends_on_lambda(texture.sampler) || judges_interval) lambda_interval(t, at, x, y, rules, lo, hi);
+      const int lower_row = math::lower_row_of_square(conventions.rows, scene.frame.height, y);
+      if (math::depends_on_lambda(texture.sampler) || judges_interval)
+        lambda_interval(t, at, x, lower_row, rules, lo, hi);
       out.legal.texels[i] = math::texel_range(texture, at, lo, hi, rules);
     }
   }

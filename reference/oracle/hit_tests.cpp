@@ -1,5 +1,6 @@
 // Possible outcomes of a hit's alpha test, and its stencil state.
 #include <cmath>
+#include <cstdint>
 
 #include "capture/fragment_outcomes.h"
 #include "reference/oracle/pixel_hit.h"
@@ -19,6 +20,15 @@ Outcomes alpha_test(const AlphaTest& test, ColorFormat format, Conventions::Alph
   return {in_codes.may_pass || in_float.may_pass, in_codes.may_fail || in_float.may_fail};
 }
 
+/// Most pieces of a triangle that may cover the pixel of its hit. Possible hit of a cut triangle: two, as snapping may
+/// reverse a sliver of the fan, which then covers the pixel together with its neighbour. Inclusive tie rule: two on a
+/// diagonal of the fan; at the border seven, where all pieces may meet at one corner (9 corners).
+std::uint32_t most_pieces(const Triangle& t, const Hit& hit, Conventions::TieRule rule) {
+  if (!t.cut) return 1;
+  if (rule != Conventions::TieRule::inclusive) return hit.certain ? 1 : 2;
+  return hit.certain ? 2 : 7;
+}
+
 }  // namespace
 
 void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
@@ -32,13 +42,13 @@ void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, co
     hit.alpha_passes = alpha.may_pass;
     hit.alpha_fails = alpha.may_fail;
   }
+  hit.pieces = most_pieces(t, hit, conventions.tie_rule);
   if (!draw.stencil) return;
   const bool front = t.sign > 0;
   hit.stencil = front ? &draw.stencil->front : &draw.stencil->back;
   // Snapping may reverse a sliver, or a piece at the border of a cut triangle: either face is legal.
   const bool either = t.flat || (!hit.certain && (t.thin || t.cut));
   if (either) hit.or_stencil = front ? &draw.stencil->back : &draw.stencil->front;
-  hit.twice = !hit.certain && t.cut;
 }
 
 }  // namespace plumbline::math

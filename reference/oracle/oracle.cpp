@@ -63,15 +63,6 @@ Planes empty_planes(const FrameFormat& frame) {
   return planes;
 }
 
-/// Most fragments of a hit. Possible hit of a cut triangle: two, as snapping may reverse a sliver of the fan, which
-/// then covers the pixel together with its neighbour. Inclusive tie rule: two on a diagonal of the fan; at the border
-/// seven, where all pieces may meet at one corner (9 corners).
-std::uint32_t pieces(const Projected& projected, const PixelHit& h) {
-  if (!projected.triangles[h.hit.primitive].cut) return 1;
-  if (projected.conventions.tie_rule != Conventions::TieRule::inclusive) return h.hit.certain ? 1 : 2;
-  return h.hit.certain ? 2 : 7;
-}
-
 /// Upper bound of the number of fragments that the hits make at the pixel.
 ///
 /// A group (groups.cpp) of triangles neither cut nor turned over makes as many fragments as its winding number, at
@@ -95,14 +86,14 @@ std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHi
   for (const PixelHit& h : hits) {
     const Triangle& t = projected.triangles[h.hit.primitive];
     if (h.hit.group < 0) {
-      most += pieces(projected, h);
+      most += h.hit.pieces;
       continue;
     }
     Group& group = of_group[static_cast<std::size_t>(h.hit.group)];
     group.known = group.known && !t.cut && !t.thin && projected.conventions.tie_rule != Conventions::TieRule::inclusive;
     const glm::dvec3 d = beside(group.delta);
     const auto is_inner = [&](const glm::dvec3& n) { return t.sign * glm::dot(n, d) > 0; };
-    group.members += pieces(projected, h), group.winding += std::ranges::all_of(t.n, is_inner) ? 1 : 0;
+    group.members += h.hit.pieces, group.winding += std::ranges::all_of(t.n, is_inner) ? 1 : 0;
   }
   for (const Group& group : of_group) most += group.known ? std::max(group.winding, 1u) : group.members;
   return most;
@@ -119,7 +110,7 @@ void settle_pixel(const Projected& projected, std::vector<PixelHit>& hits, int x
   std::uint32_t settled_most = 0, certain = 0;
   std::vector<bool> has(groups, false);
   for (const PixelHit& h : hits) {
-    settled_most += pieces(projected, h);
+    settled_most += h.hit.pieces;
     certain += h.hit.certain ? 1 : 0;
     if (h.hit.group >= 0) has[static_cast<std::size_t>(h.hit.group)] = true;
   }
@@ -196,7 +187,7 @@ void color_answers(const Scene& scene, const Projected& projected, std::span<Pix
 }
 
 /// Interval of the frame's colour where all these hits cover the pixel; nullopt: it is open which of their fragments
-/// are drawn, or the colour of one has no bound.
+/// are drawn, or how often, or the colour of one has no bound.
 std::optional<ColorInterval> color_of(const Scene& scene, const Projected& projected, std::span<const Hit> hits) {
   FrameColor color(scene.frame, projected.conventions.blending, projected.conventions.color_rounding,
                    BlendedIn::floats);
@@ -209,7 +200,9 @@ std::optional<ColorInterval> color_of(const Scene& scene, const Projected& proje
     const bool drawn = left.size() == 1 && left[0].primitive == static_cast<std::int32_t>(hit.primitive);
     const bool hidden = left.size() == 1 && left[0].primitive == held;
     if (hit.alpha_fails || drawn == hidden || (drawn && !std::isfinite(hit.color_bound))) return std::nullopt;
-    if (drawn) color.write(draw_of(scene, projected, hit).merge, around(hit.color, hit.color_bound));
+    const Merge& state = draw_of(scene, projected, hit).merge;
+    if (drawn && hit.certain && hit.pieces > 1 && (state.blend || state.logic_op)) return std::nullopt;
+    if (drawn) color.write(state, around(hit.color, hit.color_bound));
   }
   return color.written();
 }

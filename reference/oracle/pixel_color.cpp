@@ -1,6 +1,7 @@
 // The colour of a hit, with its bound.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "capture/by_conventions.h"
@@ -49,7 +50,8 @@ BoundedPlace place_in_texture(const Texture& texture, const PixelSite& site, con
   }
   const double least_off = std::max(1 - off, 0.0);
   for (int k = 0; k < 4; ++k) {
-    const glm::ivec2 at((pixel.x & ~1) + k % 2, (pixel.y & ~1) + k / 2);
+    const glm::ivec2 at((pixel.x & ~1) + k % 2,
+                        lower_row_of_square(site.scene.conventions.rows, site.scene.height, pixel.y) + k / 2);
     const glm::dvec3 ray = centre + glm::dvec3(glm::dvec2(at - pixel), 0);
     for (const bool of_surface : {false, true}) {
       const auto planes = of_surface ? site.t.n : site.weight_planes(site.scene.conventions.interpolation);
@@ -97,7 +99,7 @@ void include_factors_of_pieces(FactorRange& factors, const Fog& fog, const Pixel
   const bool is_about_eye = z_eye(low) < 0 && z_eye(high) > 0;
   const double far = std::max(std::abs(z_eye(low)), std::abs(z_eye(high)));
   double near = is_about_eye ? 0 : std::min(std::abs(z_eye(low)), std::abs(z_eye(high)));
-  if (site.scene.perspective) near = std::max(near, site.t.guarded.w_min);  // else w says nothing of distances
+  near = std::max(near, site.scene.distance_per_w * site.t.guarded.w_min);
   const auto factor_at = [&](double d) { return fog_factor(fog, {d, 0}, {16}).value; };
   const double share = far > near ? std::clamp((distance - near) / (far - near), 0.0, 1.0) : 0;
   factors.include(glm::mix(factor_at(near), factor_at(far), share));
@@ -244,8 +246,9 @@ bool FragmentColor::has_no_alpha() const {
 void FragmentColor::light_fragment(BoundedFour& color, BoundedFour& secondary) const {
   const BoundedFour p = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
   const BoundedFour n = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
-  const BoundedVector p_eye{glm::dvec3(p.value), p.bound};
-  BoundedVector n_eye = unit({glm::dvec3(n.value), n.bound});
+  constexpr double kThree = std::numbers::sqrt3;  // length of a vector of three components of 1
+  const BoundedVector p_eye{glm::dvec3(p.value), kThree * p.bound};
+  BoundedVector n_eye = unit({glm::dvec3(n.value), kThree * n.bound});
   if (is_back()) n_eye.v = -n_eye.v;
   const bool follows = draw_.color_material != ColorMaterial::none && !scene_.meshes[draw_.mesh].colors.empty();
   const bool known = std::isfinite(p.bound + n_eye.error + color.bound) && n_eye.error < 1;
@@ -309,7 +312,7 @@ void FragmentColor::fog(BoundedFour& color) const {
 }  // namespace
 
 void set_color(const Scene& scene, const PixelSite& site, PixelHit& hit) {
-  const FragmentColor fragment(scene, site, hit.hit.certain);
+  const FragmentColor fragment(scene, site, hit.covered_inside);
   const BoundedFour color = fragment.color();
   hit.hit.color = color.value;
   hit.hit.color_bound = color.bound;

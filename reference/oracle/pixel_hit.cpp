@@ -133,6 +133,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.may_join_group = t.facing_kept && !t.flat && !t.cut;
   set_depth(site, out);
+  out.covered_inside = out.hit.certain;
   out.may_join_group = out.may_join_group && !apart && !at_cut;
   const PixelDepth& view = out.view;
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))

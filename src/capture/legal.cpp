@@ -289,7 +289,8 @@ void LegalFold::draw(const Hit& hit, bool certain) {
   if (!hit.alpha_passes) return;
   certain = certain && !hit.alpha_fails;
   draw_either_side(hit, certain);
-  if (hit.twice && hit.stencil != nullptr) draw_either_side(hit, false);
+  if (hit.stencil == nullptr) return;
+  for (std::uint32_t again = 1; again < hit.pieces; ++again) draw_either_side(hit, false);
 }
 
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out) {

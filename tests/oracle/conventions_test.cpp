@@ -1,6 +1,7 @@
 // Legal answers by a renderer's conventions: what each allows, and what none does.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -227,6 +228,30 @@ TEST(OracleConventions, AnInclusiveRuleCoversByBothPiecesBesideADiagonal) {
   EXPECT_EQ(both.certain(16, 16), 1u);
   EXPECT_EQ(both.possible(16, 16), 2u);
   EXPECT_EQ(one.possible(16, 16), 1u);
+}
+
+// Both pieces blend, and both run the stencil operation.
+TEST(OracleConventions, AnInclusiveRuleBlendsAndCountsByBothPieces) {
+  Scene scene = window_scene({{glm::vec3(-10, -10, 0.5f), {90, -10, 0.5f}, {-10, 90, 0.5f}}});
+  C inclusive, left_bottom;
+  inclusive.tie_rule = C::TieRule::inclusive, left_bottom.tie_rule = C::TieRule::left_bottom;
+  scene.draws[0].merge.blend = Blend{};
+  EXPECT_FALSE(std::isfinite(legal(scene, inclusive).color_hi(16, 16).r));
+  EXPECT_TRUE(std::isfinite(legal(scene, left_bottom).color_hi(16, 16).r));
+  scene.draws[0].merge.blend.reset();
+  scene.frame.stencil = StencilFormat::s8;
+  StencilFace counts;
+  counts.func = CompareFunc::always, counts.pass = StencilOp::increment;
+  scene.draws[0].stencil = Stencil{counts, counts};
+  const auto stencils = [&](const C& by) {
+    const Legal answers = legal(scene, by);
+    std::vector<int> out;
+    for (const LegalAnswer& answer : answers.at(16, 16)) out.push_back(answer.stencil);
+    std::ranges::sort(out);
+    return out;
+  };
+  EXPECT_EQ(stencils(inclusive), (std::vector{1, 2}));
+  EXPECT_EQ(stencils(left_bottom), std::vector{1});
 }
 
 // A triangle that the frame's sides may cut: uncut, its colour without perspective is within the bound of any pieces',

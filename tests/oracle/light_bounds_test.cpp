@@ -226,7 +226,7 @@ TEST(LightError, HoldsWhateverItsInputsErrorsMake) {
     if (i % 8 == 1) light.attenuation = glm::vec3(0.5f);
     const double off = std::exp2(in(-23, -8)), distance = in(0.3, 5);
     const glm::dvec3 to_light = direction(), p_eye(in(-2, 2), in(-2, 2), in(-8, -1)),
-                     n_eye = glm::normalize(to_light + in(0, 1.5) * direction());
+                     n_eye = in(0.3, 4) * glm::normalize(to_light + in(0, 1.5) * direction());
     std::vector<LightSource<double>> sources(1);
     sources[0].p_eye = light.kind == Light::Kind::point ? glm::dvec4(p_eye + distance * to_light, 1)
                                                         : glm::dvec4(distance * to_light, 0);

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "capture/by_conventions.h"
 #include "tests/oracle/window_answers.h"
 
 namespace plumbline::math {
@@ -164,7 +163,7 @@ TEST(SettledCoverage, IsOpenBesideWhereTheRoundingChanges) {
 // Legal answers of a frame that lies within a triangle.
 Legal within(const C& conventions) {
   const Scene scene = window_scene({{glm::vec3(-16, -16, 0.5f), {128, -16, 0.5f}, {-16, 128, 0.5f}}});
-  return legal(*SceneByConventions(scene, conventions), conventions);
+  return legal(scene, conventions);
 }
 std::size_t open_within(const C& conventions) { return open_pixels(within(conventions)); }
 std::size_t certain_within(const C& conventions) {

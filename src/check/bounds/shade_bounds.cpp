@@ -6,6 +6,7 @@
 
 #include "check/bounds/texture_bounds.h"
 #include "check/bounds/units.h"
+#include "reference/arithmetic/bounded.h"
 #include "reference/arithmetic/fog.h"
 #include "reference/arithmetic/light_bounds.h"
 
@@ -38,7 +39,7 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, con
   const double d_color = colors ? glm::length(errors.color) : 0;
   const math::LightBounds bounds =
       math::light_bounds(scene, math::material_of(scene, draw, part, attributes.color), at,
-                         {length(errors[Varying::position]), dn / n + 4 * u, d_color}, attributes.lights);
+                         {length(errors[Varying::position]), math::chord(dn / n) + 4 * u, d_color}, attributes.lights);
   if (!std::isfinite(bounds.magnitude.x) || bounds.jump != Vec3<double>(0)) return anything;
   return Vec4<double>(bounds.inherited + 4 * roundings.count * u * bounds.magnitude, d_color + u);
 }

@@ -10,9 +10,9 @@ namespace plumbline::check {
 /// layer, for colours of at most 1.
 bool factors_read_frame(const Scene& scene);
 
-/// Rounding error of each pixel's colour by blending n fragments in float [u]: 4 n, or 4 (2^n - 1) where any blend
-/// factor reads the frame (colours of at most 1), times the sum of the largest |components| of the clear and the
-/// fragments' colours, at least 1 each. 0 where no fragment is drawn.
+/// Rounding error of each pixel's colour by blending in float [u]: per layer the error so far, times what the factors
+/// let through, and 4 u of the sum of both terms' absolute values. Colours: `records.shaded`; at most 1 without.
+/// 0 where no fragment is drawn.
 Plane<double> blending_roundings(const Scene& scene, const Records<double>& records);
 
 }  // namespace plumbline::check

@@ -122,7 +122,8 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
                              double positions, double normals, Inversion inversion) {
   const DrawIndex draws(scene);
   if (candidate.matrices.size() != scene.draws.size()) {
-    return mismatch("u", "no matrices", std::max(candidate.vertices.size(), reference.vertices.size()));
+    return mismatch("u", fmt::format("{} matrices for {} draws", candidate.matrices.size(), scene.draws.size()),
+                    std::max(candidate.vertices.size(), reference.vertices.size()));
   }
   if (candidate.vertices.size() == reference.vertices.size() && candidate.vertices.size() != draws.vertices()) {
     return mismatch("u", "not one record for each vertex", candidate.vertices.size());
@@ -186,11 +187,12 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
     const double turned = both ? glm::distance(candidate.vertices[i].n_eye, reference.vertices[i].n_eye) : 0;
     if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();
     for (int c = 0; c < 4; ++c) {
-      const double magnitude = c < 3 ? bounds.magnitude[c] : 1, jump = c < 3 ? bounds.jump[c] : 0;
+      const double magnitude = c < 3 ? bounds.magnitude[c] : 1, jump = c < 3 ? bounds.jump[c] : 0,
+                   by_normals = c < 3 ? turned * magnitude : 0;
       meter.suspect(c < 3 && bounds.overflows[c] ? range.overflow : "");
       if (std::isfinite(magnitude)) {
         const double unit = u * magnitude;
-        meter.value(difference(a[c], b[c]) / unit, factor, place, a[c], b[c], (jump + turned * magnitude) / unit);
+        meter.value(difference(a[c], b[c]) / unit, factor, place, a[c], b[c], (jump + by_normals) / unit);
       } else {
         meter.value(a[c] >= 0 && a[c] <= 1 ? 0 : kInfinite, 0, place, a[c], b[c]);
       }

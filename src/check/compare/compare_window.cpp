@@ -3,6 +3,8 @@
 #include <cmath>
 #include <span>
 
+#include <fmt/format.h>
+
 #include "check/bounds/matched_by_primitive.h"
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
@@ -142,9 +144,11 @@ class RunComparison {
       meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_,
                    at(number, "inv_w"), v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
-        const double place = (v.p_win[c] - 0.5) * kSubpixel, own = snapped(conventions_, place);
-        const bool may_be = area_ == FacingArea::either && may_be_snapped(place, own, v.snapped[c]);
-        meter_.value(may_be ? 0 : difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
+        // to_dialect() moved p_win by `moved`, and the snapped position by `moved`, rounded.
+        const double moved = (0.5 - conventions_.sample[c]) * kSubpixel, place = (v.p_win[c] - 0.5) * kSubpixel - moved,
+                     own = snapped(conventions_, place), given = v.snapped[c] - std::round(moved);
+        const bool may_be = area_ == FacingArea::either && may_be_snapped(place, own, given);
+        meter_.value(may_be ? 0 : difference(given, own), 0, at(number, "snapped"), given, own);
       }
       const Vec4<double> allowance = colors_ * u * glm::max(glm::abs(colors[k]), Vec4<double>(1));
       add(meter_, v.color, colors[k], Vec4<double>(u), 0, at(number, "color"), allowance);
@@ -181,7 +185,8 @@ Measurement compare_window(const Scene& scene, const Records<double>& candidate,
                            double factor, const Conventions& conventions, double colors, FacingArea area) {
   const auto &a = candidate.triangles, &b = reference.triangles;
   if (candidate.matrices.empty() || candidate.matrices.size() != scene.draws.size()) {
-    return mismatch("u", "no matrices", std::max(a.size(), b.size()));
+    return mismatch("u", fmt::format("{} matrices for {} draws", candidate.matrices.size(), scene.draws.size()),
+                    std::max(a.size(), b.size()));
   }
   Meter meter("u");
   RunComparison compare(meter, scene, candidate, factor, conventions, colors, area);

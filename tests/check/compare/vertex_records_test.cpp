@@ -293,10 +293,7 @@ TEST_F(VertexRecords, WithoutWhatTheyAreMadeOfThereIsNothingToHoldThemTo) {
 }
 
 TEST_F(VertexRecords, MoreVerticesThanTheSceneHasFail) {
-  const Change more = [](auto& a) {
-    a.vertices.push_back(a.vertices.back());
-    a.lit.push_back(a.lit.back());
-  };
+  const Change more = [](auto& a) { a.vertices.push_back(a.vertices.back()), a.lit.push_back(a.lit.back()); };
   EXPECT_FALSE(passes(vertices(more, more)));
   EXPECT_FALSE(passes(lit(more, more)));
 }
@@ -322,7 +319,9 @@ TEST_F(VertexRecords, LitColoursAreHeldToTheLights) {
     EXPECT_TRUE(passes(moved(c, 0.99 * 2.42)));
     EXPECT_TRUE(fails(moved(c, 1.01 * 2.42)));
   }
-  EXPECT_TRUE(fails(moved(3, 1.01))) << "alpha is the material's";
+  const Change other_normal = [](auto& r) { r.vertices[5].n_eye.x += 0.01; };
+  EXPECT_TRUE(passes(lit([](auto& a) { a.lit[5].color.r += 0.005; }, other_normal)));
+  EXPECT_TRUE(fails(lit([](auto& a) { a.lit[5].color.a += 0.005; }, other_normal))) << "alpha is the material's";
 }
 
 TEST_F(VertexRecords, AHighlightMayComeOrGoWhereTheLightGrazes) {

@@ -74,6 +74,29 @@ TEST_F(Window, SnappingByTruncationFails) {
   EXPECT_TRUE(fails(snapped_to(-0.75, 0))) << "truncated towards zero";
 }
 
+// Samples off the grid of 1/256 pixel: positions move by 51.2 steps to the samples' places, snapped positions by 51.
+TEST_F(Window, SnappedPositionsAreRoundedBeforeTheyMoveToTheSample) {
+  Conventions off_grid;
+  off_grid.sample = {0.3, 0.5};
+  const auto passes_at = [&](double steps, int snapped) {
+    Records<double> a = records;
+    for (auto& triangle : a.triangles) {
+      for (auto& v : triangle.v) {
+        v.snapped.x = static_cast<int>(std::nearbyint((v.p_win.x - 0.5) * 256)) + 51;
+        v.p_win.x += 51.2 / 256;
+      }
+    }
+    a.triangles[0].v[0].p_win.x = 10 + (steps + 51.2) / 256;
+    a.triangles[0].v[0].snapped.x = (10 * 256 - 128) + snapped + 51;
+    return passes(compare_window(scene, a, a, kFactor, off_grid, 0, FacingArea::either));
+  };
+  for (const int by : {-1, 0, 1}) {
+    EXPECT_EQ(passes_at(0.4, by), by == 0) << by;
+    EXPECT_EQ(passes_at(0.1, by), by == 0) << by;
+    EXPECT_EQ(passes_at(-0.4, by), by == 0) << by;
+  }
+}
+
 // No specification says to which of two equally near places a position is snapped.
 TEST_F(Window, AStrangerMaySnapHalfAStepEitherWay) {
   const auto passes_at = [&](double steps, int snapped) {
