@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -43,9 +45,11 @@ std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vecto
     for (std::size_t i = 0; i < n; ++i) {
       const double low = kStrip * static_cast<double>(i), at = low + 2 + offsets[first + i];
       const double to = low + (side == Side::below ? 0.25 : 3.75);
-      for (const auto& t : quad(
-               {corner(along, 0, to), corner(along, kLong, to), corner(along, kLong, at + rise), corner(along, 0, at)}))
-        triangles.push_back(t);
+      std::array corners = {corner(along, 0, to), corner(along, kLong, to), corner(along, kLong, at + rise),
+                            corner(along, 0, at)};
+      const bool is_clockwise = (along == 0) != (side == Side::below);
+      if (is_clockwise) std::swap(corners[1], corners[3]);  // a renderer may drop back faces
+      for (const auto& t : quad(corners)) triangles.push_back(t);
     }
     add_triangles(scene, triangles);
     const Plane<glm::vec4> color = prober.draw(scene).color;
@@ -79,9 +83,11 @@ struct Grid {
   double sample = 0.5;
   std::size_t probes = 0, all = 0;
   double scatter = 0;  // of the sample's place [pixels]
+  bool explains = false;
 };
 // `lost_rows`: 1 where the samples of the strip's lowest row lie below the triangles' lower side, at 1/4 of the row.
-std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Rounding rounding, int lost_rows) {
+// nullopt: all edges lie half way between two positions of the grid.
+std::optional<Grid> implied(const std::vector<Edge>& edges, int bits, C::Rounding rounding, int lost_rows) {
   double least = std::numeric_limits<double>::infinity(), most = -least, sum = 0;
   std::size_t n = 0;
   for (const Edge& edge : edges) {
@@ -91,20 +97,24 @@ std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Round
     least = std::min(least, sample), most = std::max(most, sample), sum += sample;
     ++n;
   }
+  if (n == 0) return std::nullopt;
   // Largest scatter that ties, an edge function's rounding, and corners on a grid too fine to be measured may cause.
-  if (n == 0 || most - least > 3.5 * edges.front().rise / kLong) return std::nullopt;
+  const double most_scatter = 3.5 * edges.front().rise / kLong;
   double sample = sum / static_cast<double>(n);
   if (edges.front().rise == 1 && sample > 0.999) --sample;  // the lowest row was lost although lost_rows is 0
-  return Grid{bits, rounding, sample, n, edges.size(), most - least};
+  return Grid{bits, rounding, sample, n, edges.size(), most - least, most - least <= most_scatter};
 }
 
-// The grid by which the sample's place scatters least; the finest of equally good ones.
+// The grid that explains the edges, and by which the sample's place scatters least; the finest of equally good ones.
+// Where none explains them: no grid, and what the edges imply without one.
 std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int most_bits, int lost_rows) {
-  std::optional<Grid> best = explained(edges, C::kFloat, C::Rounding::nearest, lost_rows);
+  const std::optional<Grid> without = implied(edges, C::kFloat, C::Rounding::nearest, lost_rows);
+  std::optional<Grid> best = without;
   for (int bits = most_bits; bits >= least_bits; --bits) {
     for (const C::Rounding rounding : {C::Rounding::nearest, C::Rounding::down, C::Rounding::up}) {
-      const auto grid = explained(edges, bits, rounding, lost_rows);
-      if (grid && (!best || grid->scatter < best->scatter - 0.5 * edges.front().rise / kLong)) best = grid;
+      const auto grid = implied(edges, bits, rounding, lost_rows);
+      if (grid && grid->explains && (!best || grid->scatter < best->scatter - 0.5 * edges.front().rise / kLong))
+        best = grid;
     }
   }
   return best;
@@ -118,7 +128,7 @@ std::optional<Grid> grid_along(Prober& prober, int along) {
   for (int k = 0; k < 64; ++k) offsets.push_back(k / 1024.0);
   for (int k = 0; k < 64; ++k) offsets.push_back((15 * k + 5.25) / 1024.0);
   const auto grid = grid_of(edges(prober, along, 1, offsets), 0, 9, 0);
-  if (!grid || (grid->bits != C::kFloat && grid->bits <= 8)) return grid;
+  if (!grid || !grid->explains || (grid->bits != C::kFloat && grid->bits <= 8)) return grid;
   constexpr double rise = 1.0 / 16;
   const double first = std::floor((grid->sample - rise / 2) * 1024) / 1024;
   offsets.clear();
@@ -208,58 +218,83 @@ glm::dvec2 sample_by_diagonal(Prober& prober, glm::dvec2 sample) {
   return best;
 }
 
-}  // namespace
-
-void learn_grid(Prober& prober) {
-  const ConventionWords bits = words_of("subpixel_bits"), rounding = words_of("subpixel_rounding");
-  std::array<std::optional<Grid>, 2> grids;
+// Grids of rows and of columns. Says of triangles that reach beyond their edges, or not to them.
+struct Grids {
+  std::optional<Grid> rows, columns;
+  bool explain() const { return rows && columns && rows->explains && columns->explains; }
+  bool differ() const { return rows->bits != columns->bits || rows->rounding != columns->rounding; }
+  double scatter() const {  // of the sample's place [pixels]
+    return rows && columns ? std::max(rows->scatter, columns->scatter) : std::numeric_limits<double>::infinity();
+  }
+};
+Grids grids_of(Prober& prober) {
+  Grids out;
   double reach = 0;
   for (const int along : {0, 1}) {
-    std::optional<Grid>& grid = grids[static_cast<std::size_t>(along)] = grid_along(prober, along);
-    const double beyond = grid ? reach_of(prober, along, *grid) : 0;
+    std::optional<Grid>& grid = (along == 0 ? out.rows : out.columns) = grid_along(prober, along);
+    const double beyond = grid && grid->explains ? reach_of(prober, along, *grid) : 0;
     if (std::abs(beyond) > std::abs(reach)) reach = beyond;
   }
   if (reach != 0) {
     prober.unexplained(fmt::format("triangles have too {} samples, as if their edges lay {:.4f} pixel farther {}",
                                    reach > 0 ? "many" : "few", std::abs(reach), reach > 0 ? "out" : "in"));
   }
-  const auto &rows = grids[0], &columns = grids[1];
-  if (!rows || !columns) {
-    prober.unexplained("edges that are moved in small steps go by no grid");
-    for (const ConventionWords& words : {kSampleWords, bits, rounding})
-      prober.open(words, "no grid explains the edges");
-    return;
-  }
-  if (rows->bits != columns->bits || rows->rounding != columns->rounding) {
+  return out;
+}
+
+// The sample's place that the grids imply: at a multiple of 1/2 where it may be there. nullopt: the picture is shifted,
+// which is said.
+std::optional<glm::dvec2> sample_of(Prober& prober, const Grids& grids) {
+  const double uncertain = grids.explain() ? 1.5 / kLong : grids.scatter();
+  const auto placed = [&](double at) {
+    return (std::abs(at - std::round(2 * at) / 2) < uncertain ? std::round(2 * at) / 2 : at) + 0.0;  // -0 is 0
+  };
+  glm::dvec2 sample = {placed(grids.columns->sample), placed(grids.rows->sample)};
+  const bool in_pixel = glm::clamp(sample, 0.0, 1.0) == sample;
+  const int bits = grids.rows->bits;
+  glm::dvec2 shift = bits == 0 || bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
+  for (const int axis : {0, 1}) take_far_border(sample[axis], shift[axis]);
+  if (in_pixel && bits == 0) sample = sample_by_diagonal(prober, sample);
+  if (in_pixel && shift == glm::dvec2(0)) return sample;
+  prober.unexplained(fmt::format("{}: the sample is at {}, and the picture is shifted by {:.0f}, {:.0f} pixels",
+                                 in_pixel ? "the picture is shifted" : "a sample lies outside its pixel",
+                                 sample_text(sample), shift.x + 0.0, shift.y + 0.0));
+  return std::nullopt;
+}
+
+}  // namespace
+
+void learn_grid(Prober& prober) {
+  constexpr double kMostScatter = 0.125;  // [pixels] at which a sample's place is still known
+  const ConventionWords bits = words_of("subpixel_bits"), rounding = words_of("subpixel_rounding");
+  const auto open_all = [&](const char* why) {
+    for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, why);
+  };
+  const Grids grids = grids_of(prober);
+  if (!grids.explain()) {
+    const bool is_known = std::isfinite(grids.scatter());
+    prober.unexplained("edges that are moved in small steps go by no grid" +
+                       (is_known ? fmt::format(": they scatter by {:.3f} pixel", grids.scatter()) : ""));
+    if (!(grids.scatter() <= kMostScatter)) return open_all("no grid explains the edges");
+  } else if (grids.differ()) {
     prober.unexplained("window positions go by one grid in x, by another in y");
-    for (const ConventionWords& words : {kSampleWords, bits, rounding})
-      prober.open(words, "edges contradict each other");
-    return;
+    return open_all("edges contradict each other");
   }
-  const std::size_t probes = rows->probes + columns->probes, all = rows->all + columns->all;
+  const std::size_t probes = grids.rows->probes + grids.columns->probes, all = grids.rows->all + grids.columns->all;
   const std::string evidence = fmt::format("{} of {} edges that are moved in small steps", probes, all);
   if (2 * probes < all)
     prober.unexplained(fmt::format("window positions go by no grid: the best one explains {}", evidence));
+  const std::optional<glm::dvec2> sample = sample_of(prober, grids);
+  if (!sample) return open_all("the picture is shifted");
   C& c = prober.learned.conventions;
-  const auto placed = [](double at) {
-    return (std::abs(at - std::round(2 * at) / 2) < 1.5 / kLong ? std::round(2 * at) / 2 : at) + 0.0;  // -0 is 0
-  };
-  glm::dvec2 sample = {placed(columns->sample), placed(rows->sample)};
-  const bool in_pixel = glm::clamp(sample, 0.0, 1.0) == sample;
-  glm::dvec2 shift = rows->bits == 0 || rows->bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
-  for (const int axis : {0, 1}) take_far_border(sample[axis], shift[axis]);
-  if (in_pixel && rows->bits == 0) sample = sample_by_diagonal(prober, sample);
-  if (!in_pixel || shift != glm::dvec2(0)) {
-    prober.unexplained(fmt::format("{}: the sample is at {}, and the picture is shifted by {:.0f}, {:.0f} pixels",
-                                   in_pixel ? "the picture is shifted" : "a sample lies outside its pixel",
-                                   sample_text(sample), shift.x + 0.0, shift.y + 0.0));
-    for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, "the picture is shifted");
+  c.sample = *sample;
+  prober.found(kSampleWords, sample_text(c.sample), grids.explain() ? evidence : evidence + ", which scatter about it");
+  if (!grids.explain()) {
+    for (const ConventionWords& words : {bits, rounding}) prober.open(words, "no grid explains the edges");
     return;
   }
-  c.sample = sample;
-  c.subpixel_bits = rows->bits;
-  c.subpixel_rounding = rows->rounding;
-  prober.found(kSampleWords, sample_text(c.sample), evidence);
+  c.subpixel_bits = grids.rows->bits;
+  c.subpixel_rounding = grids.rows->rounding;
   prober.found(bits, bits_text(c.subpixel_bits),
                evidence + (c.subpixel_bits == C::kFloat ? fmt::format(" (or {} bits or more)", kMostBits + 1) : ""));
   prober.found(rounding, c.subpixel_bits == C::kFloat ? "nearest" : name_of(c.subpixel_rounding), evidence);

@@ -66,6 +66,14 @@ Plane<glm::vec4> middle_of(Prober& prober, const std::string& name, Texture text
 // Texels from the first one's centre, of `size` in a row, at a pixel of middle_of().
 double texels_at(double pixel, int size) { return (size - 1) * static_cast<double>(kMiddle) * pixel / kTexturedSize; }
 
+// Pixels that may be nobody's: those with samples on a textured frame's diagonal, or on a side of it.
+bool may_be_nobodys(int x, int y, const glm::dvec2& sample) {
+  const auto is_on_side = [](int at, double offset) {
+    return (at == 0 && offset == 0) || (at == kTexturedSize - 1 && offset == 1);
+  };
+  return x == y || is_on_side(x, sample.x) || is_on_side(y, sample.y);
+}
+
 // Errors of the weights between a black texel and a white one, at each column, those of colours in codes included.
 struct WeightErrors {
   double least = std::numeric_limits<double>::infinity(), most = -least, mean = 0;
@@ -73,15 +81,18 @@ struct WeightErrors {
 };
 WeightErrors weight_errors(Prober& prober) {
   const Plane<glm::vec4> color = middle_of(prober, "texture_ramp", texture_of(2, [](int x, int) { return 255 * x; }));
+  const glm::dvec2 sample = prober.learned.conventions.sample;
   WeightErrors out;
+  int columns = 0;
   for (int x = 0; x < kTexturedSize; ++x) {
-    if (x == kTexturedSize / 2) continue;  // on the diagonal
+    if (may_be_nobodys(x, kTexturedSize / 2, sample)) continue;
     const auto drawn = static_cast<double>(color(x, kTexturedSize / 2).r);
-    const double error = drawn - texels_at(x + prober.learned.conventions.sample.x, 2);
+    const double error = drawn - texels_at(x + sample.x, 2);
     if (std::isfinite(drawn)) out.codes.insert(std::lround(255 * drawn));
-    out.least = std::min(out.least, error), out.most = std::max(out.most, error),
-    out.mean += error / (kTexturedSize - 1);
+    out.least = std::min(out.least, error), out.most = std::max(out.most, error), out.mean += error;
+    ++columns;
   }
+  out.mean /= columns;
   return out;
 }
 
@@ -155,6 +166,7 @@ int unlike_code(int x, int y) { return (x * 83 + y * 151 + 11) % 256; }
 struct MeanErrors {
   double largest = 0, highest = -std::numeric_limits<double>::infinity();
   double step = 0;  // of the coarsest weights that explain each mean
+  int count = 0;
 };
 MeanErrors mean_errors(Prober& prober) {
   const Plane<glm::vec4> color = middle_of(prober, "texture_weights", texture_of(4, unlike_code));
@@ -162,7 +174,7 @@ MeanErrors mean_errors(Prober& prober) {
   MeanErrors out;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
-      if (x == y) continue;  // on the diagonal, which may be nobody's
+      if (may_be_nobodys(x, y, sample)) continue;
       const glm::dvec2 at(texels_at(x + sample.x, 4), texels_at(y + sample.y, 4)), low = glm::floor(at);
       const glm::dvec2 share = at - low;
       const auto grey = [&](int dx, int dy) {
@@ -172,6 +184,7 @@ MeanErrors mean_errors(Prober& prober) {
       const double exact =
           glm::mix(glm::mix(grey(0, 0), grey(1, 0), share.x), glm::mix(grey(0, 1), grey(1, 1), share.x), share.y);
       const double off = 255 * static_cast<double>(color(x, y).r) - exact;
+      ++out.count;
       out.largest = farther(out.largest, off);
       out.highest = std::max(out.highest, off);
       // Each direction's weight is off by at most a step; three means are rounded to half a step.
@@ -188,10 +201,9 @@ MeanErrors mean_errors(Prober& prober) {
 void learn_weights(Prober& prober) {
   const ConventionWords words = words_of("texture_bits");
   if (prober.open_if_colors_are_not_linear(words) || prober.open_if_any_open(words, {kSampleWords.name})) return;
-  const auto [most, highest, step] = mean_errors(prober);
+  const auto [most, highest, step, count] = mean_errors(prober);
   const C& c = prober.learned.conventions;
-  const std::string evidence =
-      fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * (kTexturedSize - 1), most);
+  const std::string evidence = fmt::format("{} texels, {:.2f} codes off at most", count, most);
   if (!std::isfinite(most)) return prober.fits_none(words, evidence);
   // Coarse weights err towards either neighbour, truncated mixes downwards only.
   if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");

@@ -51,8 +51,12 @@ FanEdges fan_edges(Prober& prober, glm::dvec2 sample) {
   std::array<Plane<glm::vec4>, 2> color;  // of the triangles of even and of odd numbers, which share no edge
   for (std::size_t odd = 0; odd < 2; ++odd) {
     std::vector<std::array<ProbeCorner, 3>> triangles;
-    for (std::size_t i = odd; i < around.size(); i += 2)
-      triangles.push_back({at({0, 0}), at(around[i]), at(around[(i + 1) % around.size()])});
+    for (std::size_t i = odd; i < around.size(); i += 2) {
+      std::array<ProbeCorner, 3> t = {at({0, 0}), at(around[i]), at(around[(i + 1) % around.size()])};
+      std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(i / 2 % 3),
+                  t.end());  // rules may go by corners' order
+      triangles.push_back(t);
+    }
     Scene scene = probe_frame("fan", kFan, kFan);
     add_triangles(scene, triangles);
     color[odd] = prober.draw(scene).color;
@@ -91,7 +95,8 @@ void learn_ties(Prober& prober) {
   if (samples.one == samples.all()) {
     c.tie_rule = by_rule[best] == samples.one ? kRules[best] : C::TieRule::any;
     evidence += fmt::format(", {} by {}", by_rule[best], name_of(kRules[best]));
-    if (c.tie_rule == C::TieRule::any) evidence += ": no rule, as of edges that are stepped in float";
+    if (c.tie_rule == C::TieRule::any)
+      evidence += ": no rule, as of edges that are stepped in float, or of corners in their order";
   } else if (straight.both == straight.all() && samples.none == 0) {
     c.tie_rule = C::TieRule::inclusive;
   } else if (straight.none == straight.all() && samples.both == 0) {

@@ -1,8 +1,14 @@
 // Grids and edges that plumb learn finds.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gmock/gmock.h>
 
 #include "capture/files/conventions_file.h"
+#include "kernels/coverage.h"
+#include "pipeline/stages.h"
 #include "tests/learn/altered_renderers.h"
 
 namespace plumbline::learn {
@@ -104,6 +110,60 @@ TEST(LearnEdges, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
   C expected = ours();
   expected.unexplained = {"triangles have too many samples, as if their edges lay 0.0078 pixel farther out"};
   EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected));
+}
+
+// Products in float: each corner lies up to 1/50 pixel off its place. The sample, and what follows from it, is known.
+TEST(LearnEdges, ASampleIsFoundWhereEdgesScatter) {
+  const auto learned_off_by = [](float most) {
+    auto renderer = std::make_unique<OfAlteredScenes>();
+    renderer->before = [most](Scene& scene) {
+      if (!scene.name.starts_with("probe/grid")) return;
+      std::uint32_t state = 1;
+      for (Mesh& mesh : scene.meshes) {
+        for (glm::vec3& p : mesh.positions) {
+          for (const int k : {0, 1}) {
+            state = state * 1664525u + 1013904223u;
+            p[k] += most * (static_cast<float>(state >> 8) * 0x1p-23f - 1);
+          }
+        }
+      }
+    };
+    return learned(std::move(renderer));
+  };
+  const C found = learned_off_by(0.02f), lost = learned_off_by(0.3f);
+  EXPECT_EQ(found.sample, glm::dvec2(0.5));
+  EXPECT_EQ(found.tie_rule, C::TieRule::left_bottom);
+  EXPECT_THAT(found.open, testing::IsSupersetOf({"subpixel_bits", "subpixel_rounding"}));
+  EXPECT_THAT(found.open, testing::Not(testing::Contains("sample")));
+  EXPECT_THAT(found.unexplained, testing::Contains(testing::HasSubstr("go by no grid: they scatter by 0.0")));
+  EXPECT_THAT(lost.open, testing::Contains("sample"));
+}
+
+TEST(LearnEdges, RenderersThatDropBackFacesHaveAGrid) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) {
+    for (Draw& draw : scene.draws) draw.cull = Cull::back;
+  };
+  EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(ours()));
+}
+
+// Samples on the edge opposite a triangle's first corner are its, and those on its other edges are not.
+std::vector<glm::ivec2> by_order_of_corners(const pipeline::WindowTriangle& triangle,
+                                            const pipeline::PixelBounds& box) {
+  pipeline::Edges edges = pipeline::edges_of(triangle);
+  for (int i = 0; i < 3; ++i) {
+    const bool owned = edges.step_x[i] > 0 || (edges.step_x[i] == 0 && edges.step_y[i] > 0);
+    if (!owned) ++edges.at_origin[i];
+    if (i != 0) --edges.at_origin[i];
+  }
+  return pipeline::covered_pixels(edges, pipeline::pixel_bounds(triangle), box);
+}
+
+TEST(LearnTies, OfCornersInTheirOrderAreNoRule) {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.coverage = by_order_of_corners;
+  const C found = learned(pipeline::make_pipeline(stages));
+  EXPECT_THAT(found.unexplained, testing::Contains(testing::HasSubstr("samples on a fan's edges")));
 }
 
 // Pixel (37, 33) is one whose sample lies on a slanted edge, between two triangles of two frames.

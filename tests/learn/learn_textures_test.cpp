@@ -1,4 +1,6 @@
 // Conventions of textures and polygon offsets that OpenGL leaves open, found in our renderer drawn by them.
+#include <algorithm>
+
 #include "tests/learn/altered_renderers.h"
 #include "tests/learn/drawn_otherwise.h"
 
@@ -9,6 +11,20 @@ C learned_by(decltype(pipeline::Stages::texture) texture) {
   pipeline::Stages stages = pipeline::production_stages();
   stages.texture = texture;
   return learned(pipeline::make_pipeline(stages));
+}
+
+// Samples at pixels' lower left corners: those of the first column and row lie on the frame's sides, and are nobody's.
+TEST(LearnTextures, SamplesOnSidesThatAreNobodysAreNoTexels) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) { scene.frame.pass.shift += 0.5; };
+  renderer.after = [](const Scene&, Capture& c) {
+    for (int i = 0; i < std::min(c.width, c.height); ++i)
+      c.planes.color(0, i) = c.planes.color(i, 0) = glm::vec4(0, 0, 0, 1);
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.sample, glm::dvec2(0));
+  EXPECT_EQ(found.texture_bits, C::kFloat);
+  EXPECT_EQ(std::ranges::count(found.open, "texture_bits"), 0);
 }
 
 TEST(LearnTextures, LevelsOfDetailThatAreApproximatedAreFound) {
