@@ -1,6 +1,7 @@
 #include "cli/likely/known_faults.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -182,17 +183,23 @@ std::vector<KnownFault> of_pictures(const FrameFormat& frame) {
 
 constexpr std::string_view kOtherSide = ", or to another side";
 
-// Whether the fault is what the conventions declare.
-bool is_declared(const std::string_view fault, const Conventions& conventions) {
-  constexpr auto kDown = Conventions::Rounding::down;
-  return (fault == "merge.truncated" && conventions.color_rounding == kDown) ||
-         (fault == "depth.truncated" && conventions.depth_rounding == kDown);
+constexpr std::array kTruncations = {std::string_view("merge.truncated"), std::string_view("depth.truncated")};
+
+// Faults that draw what the conventions declare.
+std::vector<std::string_view> declared_faults(const Conventions& c) {
+  using enum Conventions::TieRule;
+  std::vector<std::string_view> out;
+  if (c.color_rounding == Conventions::Rounding::down) out.push_back("merge.truncated");
+  if (c.depth_rounding == Conventions::Rounding::down) out.push_back("depth.truncated");
+  if (c.interpolation == Conventions::Interpolation::affine) out.push_back("attributes.affine");
+  if (c.tie_rule == inclusive) out.push_back("coverage.inclusive_edges");
+  if (c.tie_rule == exclusive) out.push_back("notes.000.strict_edges");
+  if (c.tie_rule == left_top) out.push_back("coverage.top_for_bottom");
+  return out;
 }
 
-Conventions truncating() {
-  Conventions out;
-  out.color_rounding = out.depth_rounding = Conventions::Rounding::down;
-  return out;
+bool is_among(std::string_view fault, std::span<const std::string_view> faults) {
+  return std::ranges::find(faults, fault) != faults.end();
 }
 
 // Rounding to the nearest where the conventions declare `fault`, truncation.
@@ -226,7 +233,7 @@ std::vector<KnownFault> picture_faults() {
   std::vector<KnownFault> all = of_pictures(square), out;
   all.push_back(alpha_not_written(square));
   for (const FaultInfo& fault : fault_infos()) {
-    if (is_declared(fault.name, truncating())) all.push_back(not_as_declared(fault));
+    if (is_among(fault.name, kTruncations)) all.push_back(not_as_declared(fault));
   }
   std::ranges::move(misread_states(), std::back_inserter(all));
   for (KnownFault& fault : all) {
@@ -242,13 +249,14 @@ std::vector<KnownFault> picture_faults() {
 
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
   std::vector<KnownFault> out;
+  const std::vector<std::string_view> declared = declared_faults(given.conventions);
   for (const FaultInfo& fault : fault_infos()) {  // a wrong declaration comes before faults that draw the same frame
-    if (is_declared(fault.name, given.conventions)) out.push_back(not_as_declared(fault));
+    if (is_among(fault.name, kTruncations) && is_among(fault.name, declared)) out.push_back(not_as_declared(fault));
   }
   std::ranges::move(of_pictures(scene.frame), std::back_inserter(out));
   std::ranges::move(misread_states(scene), std::back_inserter(out));
   for (const FaultInfo& fault : fault_infos()) {
-    if (is_declared(fault.name, given.conventions)) continue;
+    if (is_among(fault.name, declared)) continue;
     const std::string name(fault.name);
     out.push_back(
         {.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .of_stages = {name}});
@@ -267,9 +275,9 @@ ColorAndDepth draw_with(std::span<const KnownFault* const> faults, const Scene& 
                         CutAt cut_at) {
   Scene changed = scene;
   std::vector<std::string> of_stages;
-  for (const std::string_view declared : {"merge.truncated", "depth.truncated"}) {  // first: a fault of the stage stays
+  for (const std::string_view declared : declared_faults(conventions)) {  // first: a fault of the same stage stays
     const bool is_lifted = std::ranges::any_of(faults, [&](const KnownFault* f) { return f->lifts == declared; });
-    if (is_declared(declared, conventions) && !is_lifted) of_stages.emplace_back(declared);
+    if (!is_lifted) of_stages.emplace_back(declared);
   }
   for (const KnownFault* f : faults) {
     if (f->of_scene) f->of_scene(changed);

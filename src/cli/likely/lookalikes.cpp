@@ -330,9 +330,10 @@ std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, 
                                        const check::SceneVerdict& verdict) {
   constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
   const Plane<glm::vec4>& color = left.planes.color;
-  if (color.empty() || color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives ||
-      antialiased(scene) || color.width() != scene.frame.width || color.height() != scene.frame.height)
+  if (color.empty() || antialiased(scene) || color.width() != scene.frame.width || color.height() != scene.frame.height)
     return {};
+  if (color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives)
+    return {"the scene is too large to seek known faults: plumb diagnose seeks them"};
   const Lookalikes found = lookalikes(scene, frame_of(left, renderer, verdict));
   if (found.blank) return {"nothing of the scene is seen"};
   return likely_of(found, verdict);

@@ -12,6 +12,8 @@
 namespace plumbline::cli {
 namespace {
 
+using C = Conventions;
+
 const KnownFault* find(const std::vector<KnownFault>& known, const std::string& name) {
   const auto at = std::ranges::find(known, name, &KnownFault::name);
   return at == known.end() ? nullptr : &*at;
@@ -83,6 +85,33 @@ TEST(KnownFaults, AreRoundingsThatConventionsDeclareAndTheRendererDoesNotHave) {
     (std::string(fault).starts_with("merge") ? of_frame.color_rounding : of_frame.depth_rounding) =
         Conventions::Rounding::nearest;
     const Lookalikes found = lookalikes(scene, {draw_with({}, scene, of_frame), declared, {}});
+    EXPECT_TRUE(found.likely.ends_with(std::string("(fault ") + fault + ")")) << found.text;
+    EXPECT_TRUE(found.whole) << found.text;
+  }
+}
+
+// Frames of an affine renderer, or of another tie rule: what the conventions declare is drawn, and is no fault.
+TEST(KnownFaults, AreDrawnByDeclaredInterpolationAndTies) {
+  C affine, exclusive, inclusive;
+  affine.interpolation = C::Interpolation::affine;
+  exclusive.tie_rule = C::TieRule::exclusive;
+  inclusive.tie_rule = C::TieRule::inclusive;
+  struct Case {
+    C declared;
+    const char *scene, *drawn, *fault;
+  };
+  for (const auto& [declared, name, drawn, fault] :
+       {Case{affine, "interpolation/w_ratio", "attributes.affine", "file.mirrored"},
+        {exclusive, "coverage/shared_edges", "notes.000.strict_edges", "file.mirrored"},
+        {inclusive, "coverage/shared_edges", "coverage.inclusive_edges", "file.mirrored"}}) {
+    const Scene scene = suite_scene(name);
+    const std::vector<KnownFault> known = known_faults(scene, {});
+    const auto frame = [&](std::vector<const KnownFault*> faults) { return draw_with(faults, scene, {}); };
+    const ColorAndDepth right = frame({find(known, drawn)}), wrong = frame({find(known, drawn), find(known, fault)});
+    EXPECT_EQ(find(known_by(declared), drawn), nullptr);
+    EXPECT_EQ(lookalikes(scene, {right, declared, {}}).apart, 0u) << drawn;
+    EXPECT_NE(lookalikes(scene, {right, {}, {}}).apart, 0u) << drawn;
+    const Lookalikes found = lookalikes(scene, {wrong, declared, {}});
     EXPECT_TRUE(found.likely.ends_with(std::string("(fault ") + fault + ")")) << found.text;
     EXPECT_TRUE(found.whole) << found.text;
   }
