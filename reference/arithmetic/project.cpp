@@ -135,10 +135,7 @@ std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, dou
   std::array<double, 6> inside{
       c.v.z + c.z,           c.v.z - c.z, reach.x * c.v.z - at.x, reach.x * c.v.z + at.x, reach.y * c.v.z - at.y,
       reach.y * c.v.z + at.y};
-  if (deep) {  // the sides meet at the eye: nothing is behind it
-    inside[0] = c.v.z;
-    inside[1] = 1;  // everything, and at the cuts between as well
-  }
+  if (deep) inside[0] = c.v.z, inside[1] = 1;  // the sides meet at the eye; no far plane, at cuts between as well
   const std::array<double, 6> error = plane_errors(scene, c.size, margin, deep);
   for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
   return inside;
