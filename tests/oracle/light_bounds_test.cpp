@@ -226,7 +226,7 @@ TEST(LightError, HoldsWhateverItsInputsErrorsMake) {
     if (i % 8 == 1) light.attenuation = glm::vec3(0.5f);
     const double off = std::exp2(in(-23, -8)), distance = in(0.3, 5);
     const glm::dvec3 to_light = direction(), p_eye(in(-2, 2), in(-2, 2), in(-8, -1)),
-                     n_eye = in(0.3, 4) * glm::normalize(to_light + in(0, 1.5) * direction());
+                     n_eye = glm::normalize(to_light + in(0, 1.5) * direction());
     std::vector<LightSource<double>> sources(1);
     sources[0].p_eye = light.kind == Light::Kind::point ? glm::dvec4(p_eye + distance * to_light, 1)
                                                         : glm::dvec4(distance * to_light, 0);
@@ -254,6 +254,43 @@ TEST(LightError, HoldsWhateverItsInputsErrorsMake) {
   }
   EXPECT_GT(finite, 10'000);
   EXPECT_GT(reached, 1'000);
+}
+
+// Normals of length 4, which draws may leave as they are: highlights by the mirrored ray, seen from an eye that is off.
+TEST(LightError, HoldsForLongNormals) {
+  std::mt19937 random(9);
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto direction = [&] {
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+  };
+  constexpr double kLength = 4;
+  Scene scene;
+  scene.light_model.local_viewer = true;
+  scene.light_model.specular = LightModel::Specular::reflection;
+  Light& light = scene.lights.emplace_back();
+  light.kind = Light::Kind::directional;
+  light.ambient = light.diffuse = glm::vec3(0), light.specular = glm::vec3(0.4f);
+  int bounded = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    const double off = std::exp2(in(-23, -8));
+    const glm::dvec3 to_light = direction(), p_eye(in(-2, 2), in(-2, 2), in(-8, -1)),
+                     n_eye = kLength * glm::normalize(to_light + in(0, 1.5) * direction());
+    std::vector<LightSource<double>> sources(1);
+    sources[0].p_eye = glm::dvec4(to_light, 0);
+    const double specular = 0.5 / (kLength * kLength * kLength);
+    const DoubleMaterial material{{0.1, 0.1, 0.1, 1}, {0, 0, 0, 1}, glm::dvec4(specular), glm::dvec4(0), in(0, 2)};
+    const Vertex<double> vertex{glm::dvec4(p_eye, 1), glm::dvec4(0), n_eye};
+    const double bound = light_error(scene, material, vertex, {off, 0, 0, {}}, sources);
+    if (bound >= 1) continue;
+    ++bounded;
+    const double middle = plumbline::math::light(scene, material, sources, p_eye, n_eye).r;
+    for (int k = 0; k < 8; ++k) {
+      const double there = plumbline::math::light(scene, material, sources, p_eye + off * direction(), n_eye).r;
+      ASSERT_LE(std::abs(there - middle), bound) << i;
+    }
+  }
+  EXPECT_GT(bounded, 5'000);
 }
 
 // A direction is a direction, however long: its error is of its own length.

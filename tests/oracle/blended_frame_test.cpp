@@ -1,0 +1,79 @@
+// Blending in a pixel of the frame: roundings in float and in codes.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "reference/arithmetic/frame_color.h"
+
+namespace plumbline::math {
+namespace {
+
+Merge blending(BlendFactor source, BlendFactor destination, BlendEquation equation = BlendEquation::add) {
+  Merge out;
+  out.blend = Blend{{source, destination, equation}, {source, destination, equation}, glm::vec4(0)};
+  return out;
+}
+FrameFormat frame_of(ColorFormat color, glm::vec4 clear) {
+  FrameFormat frame;
+  frame.color = color;
+  frame.clear_color = clear;
+  return frame;
+}
+
+// Sixteen layers of haze, rounded in float as a renderer rounds them.
+TEST(BlendedFrame, AFloatFrameHoldsTheRoundingsOfBlendingInFloat) {
+  const Merge haze = [] {
+    Merge out = blending(BlendFactor::constant_alpha, BlendFactor::one_minus_constant_alpha);
+    out.blend->color.a = 0.01f;
+    return out;
+  }();
+  std::mt19937 random(1);
+  const auto drawn = [&] { return std::uniform_real_distribution<float>(0, 1)(random); };
+  int beyond_double = 0;
+  for (int i = 0; i < 400; ++i) {
+    const FrameFormat frame = frame_of(ColorFormat::rgba32f, glm::vec4(drawn()));
+    const auto in = [&](BlendedIn numbers) {
+      return FrameColor(frame, Conventions::Blending::in_float, Conventions::Rounding::nearest, numbers);
+    };
+    FrameColor floats = in(BlendedIn::floats), doubles = in(BlendedIn::doubles);
+    float held = frame.clear_color.r;
+    for (int layer = 0; layer < 16; ++layer) {
+      const float color = drawn(), alpha = haze.blend->color.a, rest = 1 - alpha;
+      const float source = color * alpha, stored = held * rest;
+      held = source + stored;
+      for (FrameColor* by : {&floats, &doubles}) by->write(haze, around(glm::dvec4(color), 0));
+    }
+    const auto holds = [&](const FrameColor& by) {
+      return by.written()[0].lo <= static_cast<double>(held) && static_cast<double>(held) <= by.written()[0].hi;
+    };
+    EXPECT_TRUE(holds(floats)) << i;
+    EXPECT_LT(floats.written()[0].hi - floats.written()[0].lo, 2 * 16 * 5 * 0x1p-24);
+    beyond_double += holds(doubles) ? 0 : 1;
+  }
+  EXPECT_GT(beyond_double, 100);
+}
+
+// Constants of 76.5 codes: a renderer that blends in codes takes 76 or 77.
+TEST(BlendedFrame, ConstantsAreCodesWhereBlendingIs) {
+  Merge merge = blending(BlendFactor::constant_color, BlendFactor::constant_alpha);
+  merge.blend->color = glm::vec4(0.3f);
+  FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(253 / 255.0f)), Conventions::Blending::in_codes);
+  color.write(merge, around(glm::dvec4(253 / 255.0), 0));
+  for (const double constant : {76.0, 77.0}) {
+    const double sum = 2 * std::nearbyint(253 * constant / 255);
+    EXPECT_LE(255 * color.written()[0].lo, sum + 0.5);
+    EXPECT_GE(255 * color.written()[0].hi, sum - 0.5);
+  }
+}
+
+// The lesser of two codes is multiplied by nothing: half a code of the source's rounding.
+TEST(BlendedFrame, LeastAndLargestAreNoProducts) {
+  FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(100 / 255.0f)), Conventions::Blending::in_codes);
+  color.write(blending(BlendFactor::one, BlendFactor::one, BlendEquation::min), around(glm::dvec4(50 / 255.0), 0));
+  EXPECT_NEAR(255 * color.written()[0].lo, 49.5, 1e-9);
+  EXPECT_NEAR(255 * color.written()[0].hi, 50.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace plumbline::math
