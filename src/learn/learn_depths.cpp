@@ -164,7 +164,13 @@ void learn_format(Prober& prober) {
     return prober.found(rounding, "nearest", "depths are floats");
   }
   if (nearly_all(of_24.near, n)) return learn_16_bits(prober, given, of_24);
-  prober.fits_none(format, "the depths given are left neither as codes of 16 or 24 bits nor as floats");
+  double least = 0, most = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    least = std::min(least, left[i] - given[i]), most = std::max(most, left[i] - given[i]);
+  prober.fits_none(format,
+                   fmt::format("the depths given are left neither as codes of 16 or 24 bits nor as floats: {:+.2g} "
+                               "to {:+.2g} off",
+                               least, most));
   prober.open(rounding, "the format is open");
 }
 

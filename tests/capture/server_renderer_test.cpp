@@ -72,6 +72,14 @@ TEST_F(Server, IsStartedOnceAndHandsOnEachScene) {
   EXPECT_EQ(starts(), 1u);
 }
 
+TEST_F(Server, MayEndItsLinesInCrLf) {
+  const auto renderer = server(
+      "n=$((n+1)); case $n in 1) printf 'unsupported no fog here\\r\\n';; "
+      "*) cp \"$good\"/* \"$out\"; printf 'ok\\r\\n';; esac");
+  EXPECT_EQ(failure(*renderer), "unsupported: no fog here");
+  EXPECT_EQ(failure(*renderer), "it did not fail");
+}
+
 TEST_F(Server, SaysWhatItCannotDrawAndGoesOn) {
   const auto renderer = server(
       "n=$((n+1)); case $n in 1) echo unsupported no fog here;; 2) echo failed out of ink;; "

@@ -147,6 +147,7 @@ TEST_F(Campaign, RefusesBadInput) {
       {"--seeds 1..2 --program 'none_such {serve}'",
        "--program: none_such: expected a program that can be run, found none"},
       {"--seeds 1..2 --program '/etc/passwd {serve}'", "found another file"},
+      {"--seeds 1..2 --program '/etc {serve}'", "found a folder"},
       {"--seeds 1..1000001", "at most 1000000 seeds"},
       {"--judge-only", "--seeds"}};
   for (const auto& [options, why] : kBad) {

@@ -386,6 +386,9 @@ TEST_F(SceneFile, FindsScenes) {
   const auto find = [](std::vector<fs::path> paths) { return find_scenes(paths); };
   EXPECT_EQ(find({root_ / "group"}), (std::vector{a, b, c}));
   EXPECT_EQ(find({b, root_ / "group/deep"}), (std::vector{b, c}));
+  const fs::path part = root_ / "group/common.part.json";
+  EXPECT_EQ(find({b, part}), std::vector{b}) << "as by a shell's *.json";
+  EXPECT_EQ(find({part}), std::vector{part}) << "whose loading says what it is";
   EXPECT_THROW(find({}), SceneError);
   EXPECT_THROW(find({root_ / "none"}), SceneError);
   fs::create_directories(root_ / "empty");

@@ -210,7 +210,7 @@ class ProcessRenderer : public Renderer {
   }
 
   void ask_server(const fs::path& input, const fs::path& output) {
-    const std::optional<std::string> answer = server_->ask(input.string() + '\t' + output.string());
+    std::optional<std::string> answer = server_->ask(input.string() + '\t' + output.string());
     if (!answer) {
       Ending ending = ending_of(server_->end(), spec_.timeout);
       if (server_->end().hung && is_whole_capture(output))
@@ -219,6 +219,7 @@ class ProcessRenderer : public Renderer {
       take(ending);
       fail("ended without an answer");
     }
+    if (answer->ends_with('\r')) answer->pop_back();  // the line ended in CR LF
     if (*answer == "ok") return;
     const std::size_t space = std::min(answer->find(' '), answer->size());
     const std::string kind = answer->substr(0, space), reason = answer->substr(std::min(space + 1, answer->size()));

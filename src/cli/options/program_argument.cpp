@@ -182,9 +182,9 @@ void require_program(const ProgramArgument& program) {
                          ? std::filesystem::is_regular_file(path) && ::access(first.c_str(), X_OK) == 0
                          : std::system(("command -v -- " + first + " >/dev/null 2>&1").c_str()) == 0;
   if (found) return;
-  throw std::invalid_argument(
-      fmt::format("--program: {}: expected a program that can be run, found {}", first,
-                  std::filesystem::exists(path) && path.has_parent_path() ? "another file" : "none"));
+  const bool is_there = path.has_parent_path() && std::filesystem::exists(path);
+  const char* what = !is_there ? "none" : std::filesystem::is_directory(path) ? "a folder" : "another file";
+  throw std::invalid_argument(fmt::format("--program: {}: expected a program that can be run, found {}", first, what));
 }
 
 std::unique_ptr<Renderer> make_program(const ProgramArgument& program) { return std::make_unique<Program>(program); }

@@ -247,11 +247,12 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   return scene;
 }
 
-/// True: a file is a scene: *.json, but not *.schema.json, *.part.json or *.rubric.json.
-bool is_scene(const fs::path& file) {
+/// True: the file stands beside scenes, and is none: *.schema.json, *.part.json or *.rubric.json.
+bool is_beside_scenes(const fs::path& file) {
   const fs::path second = file.stem().extension();
-  return file.extension() == ".json" && second != ".schema" && second != ".part" && second != ".rubric";
+  return file.extension() == ".json" && (second == ".schema" || second == ".part" || second == ".rubric");
 }
+bool is_scene(const fs::path& file) { return file.extension() == ".json" && !is_beside_scenes(file); }
 
 }  // namespace
 
@@ -277,7 +278,9 @@ Scene load_scene(const fs::path& file, const SceneFileOptions& options) {
 
 std::vector<fs::path> find_scenes(std::span<const fs::path> paths) {
   std::vector<fs::path> scenes;
+  const bool has_scene = std::ranges::any_of(paths, [](const fs::path& path) { return !is_beside_scenes(path); });
   for (const fs::path& path : paths) {
+    if (has_scene && is_beside_scenes(path)) continue;  // a shell's *.json names it, too
     std::vector<fs::path> found;
     try {
       if (!fs::is_directory(path)) {

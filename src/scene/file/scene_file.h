@@ -31,8 +31,8 @@ struct SceneFileOptions {
 /// Scene::name is "folder/file", without the ending. Throws SceneError.
 Scene load_scene(const std::filesystem::path& file, const SceneFileOptions& options = {});
 
-/// Scene files of `paths`, in the order of `paths`: a file as it is; of a folder all *.json in it and below, sorted,
-/// except *.part.json (files that scenes include), *.schema.json and *.rubric.json.
+/// Scene files of `paths`, in the order of `paths`: a file as it is; of a folder all *.json in it and below, sorted.
+/// Left out: *.part.json (files that scenes include), *.schema.json and *.rubric.json, unless `paths` are such alone.
 /// Throws SceneError if a path does not exist or names no scene, or if `paths` is empty.
 std::vector<std::filesystem::path> find_scenes(std::span<const std::filesystem::path> paths);
 
