@@ -43,9 +43,6 @@ bool alpha_at_the_reference_kept(const AlphaTest& test, float alpha, float scale
 
 bool no_alpha_test(const AlphaTest&, float, float) { return true; }
 
-bool where_depth_passes(bool passes_depth, bool) { return passes_depth; }
-bool everywhere(bool, bool) { return true; }
-
 // Stencil test of the face that `change` altered.
 template <auto change>
 bool stencil_under(const StencilFace& face, bool alive, bool passes_depth, std::uint8_t* at) {
@@ -75,6 +72,9 @@ constexpr auto kNoWrap = [](StencilFace& face) {
 };
 
 // 11. Merge.
+
+bool where_depth_passes(bool passes_depth, bool) { return passes_depth; }
+bool everywhere(bool, bool) { return true; }
 
 // Merge state that `change` altered.
 template <auto change>
@@ -215,10 +215,6 @@ constexpr std::array kMerge = {
           Stage::visibility, put<&Stages::alpha_passes, alpha_at_the_reference_kept>},
     Fault{"visibility.no_alpha_test", "the alpha test lets everything pass", Stage::visibility,
           put<&Stages::alpha_passes, no_alpha_test>},
-    Fault{"visibility.depth_of_discarded", "fragments that the alpha or stencil test discards write their depth",
-          Stage::visibility, put<&Stages::writes_depth, where_depth_passes>},
-    Fault{"visibility.depth_of_failed", "depths are written where the depth test fails, too", Stage::visibility,
-          put<&Stages::writes_depth, everywhere>},
     Fault{"visibility.stencil_ops_swapped", "the stencil op of a depth that fails is taken for that of one that passes",
           Stage::visibility, put<&Stages::stencil_test, stencil_under<kOpsSwapped>>},
     Fault{"visibility.stencil_sides_swapped", "the value held is compared with the reference, not the other way round",
@@ -232,6 +228,10 @@ constexpr std::array kMerge = {
           put<&Stages::stencil_test, stencil_under<kNoWriteMask>>},
     Fault{"visibility.stencil_saturates", "stencil values stop where they should wrap", Stage::visibility,
           put<&Stages::stencil_test, stencil_under<kNoWrap>>, "RPCS3/rpcs3#1341"},
+    Fault{"merge.depth_of_discarded", "fragments that the alpha or stencil test discards write their depth",
+          Stage::merge, put<&Stages::writes_depth, where_depth_passes>},
+    Fault{"merge.depth_of_failed", "depths are written where the depth test fails, too", Stage::merge,
+          put<&Stages::writes_depth, everywhere>},
     Fault{"merge.truncated", "colours are truncated to codes, not rounded", Stage::merge,
           put<&Stages::merge, truncated_color>},
     Fault{"merge.blue_first", "red and blue change places", Stage::merge, put<&Stages::merge, blue_first>},

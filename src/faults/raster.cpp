@@ -235,6 +235,10 @@ Color<float> each_channel(const Setup& s, const TriangleAttributes& of, const Pi
 constexpr auto kClamped = [](float v) { return pipeline::clamp01(v); };
 constexpr auto kOf8Bits = [](float v) { return pipeline::round_even(v * 255) / 255; };
 
+Color<float> mean_of_corners(const Setup&, const TriangleAttributes& of, const Pixels<float>&) {
+  return pipeline::mean<float>(of, pipeline::weights<float>(1, 1, 3));
+}
+
 // The interpolated a / w, not divided by the interpolated 1/w.
 Color<float> not_divided(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
   const double inv_w = pipeline::value_at<float>(s.perspective.sum, pipeline::from_anchor<float>(s.planes, p));
@@ -302,6 +306,8 @@ constexpr std::array kRaster = {
           put<&Stages::depth_setup, depth_under<kTowardsTheEye>>, "mrdoob/three.js#34606"},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
           put<&Stages::attributes, affine_attributes>},
+    Fault{"attributes.mean_of_corners", "a triangle has the mean of its corners' attributes everywhere",
+          Stage::attributes, put<&Stages::attributes, mean_of_corners>},
     Fault{"attributes.not_divided", "attributes over w are not divided by the interpolated 1/w", Stage::attributes,
           put<&Stages::attributes, not_divided>},
     Fault{"attributes.nearness_reversed", "corners count by w, not by 1/w", Stage::attributes,

@@ -37,6 +37,12 @@ FilteredTexel<float> scaled_by_size_less_one(const TextureSetup& t, const TexCoo
   return pipeline::texture<float>(t, {scaled(at.s, t.width), scaled(at.t, t.height)}, g);
 }
 
+// Texel coordinates of which the first and the last texel's centre are 0 and 1.
+FilteredTexel<float> corners_aligned(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  const auto aligned = [](float v, double texels) { return static_cast<float>((v * (texels - 1) + 0.5) / texels); };
+  return pipeline::texture<float>(t, {aligned(at.s, t.width), aligned(at.t, t.height)}, g);
+}
+
 // Repeat wraps |s| and |t|.
 FilteredTexel<float> negative_mirrored(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   const auto repeated = [](Wrap wrap, float v) { return wrap == Wrap::repeat ? std::abs(v) : v; };
@@ -155,6 +161,17 @@ FilteredTexel<float> weights_exchanged(const TextureSetup& t, const TexCoords<fl
   return {pipeline::sample<float>(t, {s, r}, right.lod), right.lod};
 }
 
+// A linear filter's weights, each texel's for its neighbour, at the base level.
+FilteredTexel<float> weights_reversed(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  const FilteredTexel<float> right = pipeline::texture<float>(t, at, g);
+  if (!is_linear_at_base(t, right.lod)) return right;
+  const auto reversed = [](float v, double texels) {
+    const double u = static_cast<double>(v) * texels - 0.5, i = std::floor(u);
+    return static_cast<float>((i + 1 - (u - i) + 0.5) / texels);
+  };
+  return {pipeline::sample<float>(t, {reversed(at.s, t.width), reversed(at.t, t.height)}, right.lod), right.lod};
+}
+
 // 9. Shade.
 
 using TexturedAttributes = pipeline::SurfaceAttributes<float>;
@@ -240,6 +257,8 @@ constexpr std::array kTextures = {
           put<&Stages::texture, half_texel_off>},
     Fault{"texture.scaled_by_size_less_one", "texel coordinates are s (width - 1) and t (height - 1)", Stage::texture,
           put<&Stages::texture, scaled_by_size_less_one>},
+    Fault{"texture.corners_aligned", "0 and 1 are the centres of a texture's first and last texel", Stage::texture,
+          put<&Stages::texture, corners_aligned>},
     Fault{"texture.clamp_for_repeat", "textures are not repeated, but drawn out from their edges", Stage::texture,
           put<&Stages::texture, texture_under<kClampForRepeat>>},
     Fault{"texture.negative_mirrored", "repeated textures are mirrored where coordinates are negative", Stage::texture,
@@ -271,6 +290,8 @@ constexpr std::array kTextures = {
           put<&Stages::texture, levels_floored>},
     Fault{"texture.weights_exchanged", "a linear filter's weights along s and t change places", Stage::texture,
           put<&Stages::texture, weights_exchanged>},
+    Fault{"texture.weights_reversed", "of two texels mixed by a linear filter, each gets the other's share",
+          Stage::texture, put<&Stages::texture, weights_reversed>},
     Fault{"texture.levels_swapped", "of two levels mixed, each gets the other's share", Stage::texture,
           put<&Stages::texture, levels_swapped>},
     Fault{"shade.modulate_for_replace", "the texture's colour is multiplied in where it should replace", Stage::shade,

@@ -97,9 +97,8 @@ void draw_primitives(const PreparedDraw& d, const FrameFormat& format, const Sta
             passes_tests(stages, draw, triangle.front, passes_depth, shaded, formats.color_scale, to.stencil);
         records.fragment({pixel, z, &attributes, shaded.color, drawn});
 
+        // 11. Merge: depth, blending, logic op, masks.
         if (merge_state.depth_mask && stages.writes_depth(passes_depth, drawn)) *to.depth = z;
-
-        // 11. Merge: blending, logic op, masks.
         if (drawn) write_color(stages, merge_state, shaded.color, formats.color_scale, to);
       }
     }

@@ -123,8 +123,8 @@ struct Stages {
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
   bool (*alpha_passes)(const AlphaTest&, float alpha, float color_scale);
   bool (*stencil_test)(const StencilFace&, bool alive, bool passes_depth, std::uint8_t* held);
-  bool (*writes_depth)(bool passes_depth, bool drawn);  ///< where the depth mask allows it
   // 11 merge, in the frame's format: codes, or floats
+  bool (*writes_depth)(bool passes_depth, bool drawn);  ///< true: the depth is stored, if the depth mask allows
   Merge (*merge_state)(const Merge& of_draw);
   Color<float> (*merge)(const Color<float>&, float color_scale);
   Color<float> (*blend)(const Blend&, const Color<float>& source, const Color<float>& stored, float color_scale);

@@ -165,8 +165,7 @@ class OneStage {
         const FramePixel to = frame.at(pixel);
         const bool passes_depth = stages_.depth_passes(surface->draw->depth_func, made.z, *to.depth);
         made.drawn = is_drawn(i, *surface->draw, triangle, made, to);
-        const bool writes_depth =
-            stage_ == Stage::visibility ? stages_.writes_depth(passes_depth, made.drawn) : made.drawn;
+        const bool writes_depth = stage_ == Stage::merge ? stages_.writes_depth(passes_depth, made.drawn) : made.drawn;
         const Merge merge = stages_.merge_state(surface->draw->merge);
         if (merge.depth_mask && writes_depth) *to.depth = made.z;
         if (made.drawn) write_color(stages_, merge, made.shaded, formats.color_scale, to);

@@ -16,7 +16,7 @@ struct KnownFault {
   std::function<void(Scene&)> of_scene = {};
   std::vector<std::string> of_stages = {};  ///< names of `plumb list faults`, a stage each
   std::function<void(ColorAndDepth&)> of_frame = {};
-  bool is_contradicted = false;  ///< by the conventions: it is named only where it alone explains all pixels
+  bool is_contradicted = false;  ///< the conventions declare otherwise: named only if it alone explains all pixels
   std::string lifts = {};  ///< the fault that the conventions declare as a rounding, and the renderer does not have
 };
 

@@ -87,7 +87,7 @@ void keep_farthest(Scene& scene) {
 }
 
 // Faults of writing a right frame to a file.
-void add_files(bool is_square, std::vector<KnownFault>& out) {
+void add_files(const FrameFormat& frame, std::vector<KnownFault>& out) {
   const auto add = [&](const char* name, const char* says, std::function<void(ColorAndDepth&)> change) {
     out.push_back({.stage = "file", .name = name, .says = says, .of_frame = std::move(change)});
   };
@@ -100,7 +100,7 @@ void add_files(bool is_square, std::vector<KnownFault>& out) {
       rearranged({}, 0, [](int x, int y, int, int height) { return glm::ivec2(x, height - 1 - y); }));
   add("file.mirrored", "the columns are written from the other end",
       rearranged({}, 0, [](int x, int y, int width, int) { return glm::ivec2(width - 1 - x, y); }));
-  if (is_square) {
+  if (frame.width == frame.height) {
     add("file.transposed", "rows and columns change places: an array is indexed [x, y]",
         rearranged({}, 0, [](int x, int y, int, int) { return glm::ivec2(y, x); }));
   }
@@ -108,6 +108,8 @@ void add_files(bool is_square, std::vector<KnownFault>& out) {
       of_pixels([](glm::vec4& color, double*) { std::swap(color.r, color.b); }));
   add("file.depth_of_ndc", "depths are in [-1, 1], those of normalized device coordinates",
       change_depth([](double z) { return 2 * z - 1; }));
+  add("file.background_at_0", "the background has depth 0",
+      change_depth([frame](double z) { return is_clear_depth(frame, z) ? 0 : z; }));
   add("file.depth_reversed", "depths are 1 at the near plane and 0 at the far one",
       change_depth([](double z) { return 1 - z; }));
 }
@@ -169,7 +171,7 @@ KnownFault alpha_not_written(const FrameFormat& frame) {
 // Faults that change the finished frame, or draw a changed scene.
 std::vector<KnownFault> of_pictures(const FrameFormat& frame) {
   std::vector<KnownFault> out;
-  add_files(frame.width == frame.height, out);
+  add_files(frame, out);
   add_encodings(out);
   add_culls(out);
   add_neighbours(frame, out);
@@ -207,7 +209,7 @@ KnownFault not_as_declared(const FaultInfo& fault) {
   const std::string stage(fault.stage);
   return {.stage = stage,
           .name = stage + ".to_nearest",
-          .says = "rounded to the nearest code, not down as the conventions declare: plumb learn",
+          .says = "rounded to the nearest code, not down, as the conventions declare: run plumb learn again",
           .lifts = std::string(fault.name)};
 }
 
@@ -266,7 +268,7 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
   std::erase_if(out, [&](const KnownFault& f) { return is_of(given.right, f); });
   for (KnownFault& f : out) {
     f.is_contradicted = is_contradicted(f.name, given.conventions);
-    if (f.is_contradicted) f.says += ", not as the conventions declare: plumb learn";
+    if (f.is_contradicted) f.says += "; the conventions declare otherwise: run plumb learn again";
   }
   return out;
 }

@@ -36,8 +36,8 @@ GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const che
 /// merge, or where records are wrong and the frame is legal: the fault then resembles a legal rule of the renderer, not
 /// its mistake.
 std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
-/// likely_of() the capture's frame; empty also for an antialiased scene. Or a sentence: where all its pixels have one
-/// colour, and where the scene has more than 20,000 primitives or 200,000 pixels, as each fault is a picture.
+/// likely_of() the capture's frame; empty also for an antialiased scene. Else one sentence: the frame has one colour,
+/// or the scene has more than 20,000 primitives or 200,000 pixels, and each fault is a picture.
 std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                                        const check::SceneVerdict& verdict);
 

@@ -23,6 +23,13 @@ auto shines_by(float factor) {
   });
 }
 
+bool smooth_as_flat(Scene& scene) {
+  return of_draws([&](Draw& d) {
+    const bool has_colors = d.lit || (d.mesh < scene.meshes.size() && !scene.meshes[d.mesh].colors.empty());
+    return has_colors && d.shading == Shading::gouraud && reset(d.shading, Shading::flat);
+  })(scene);
+}
+
 // Scissor box of which width and height are taken for its right and its upper side.
 bool end_at_size(Draw& d) {
   if (!d.scissor) return false;
@@ -77,6 +84,7 @@ std::vector<MisreadState> states_of_geometry() {
        [](Scene& s) { return reset(s.light_model.sides, LightModel::Sides::one); }, kOfLightEquation},
       {"light", "phong_shading_ignored", "draws are lit at their vertices, not at their fragments",
        of_draws([](Draw& d) { return d.shading == Shading::phong && reset(d.shading, Shading::gouraud); })},
+      {"clip", "smooth_shading_ignored", "triangles have the colour of their last corner", smooth_as_flat},
       {"clip", "flat_shading_ignored", "flat triangles have the colours of all corners",
        of_draws([](Draw& d) { return d.shading == Shading::flat && reset(d.shading, Shading::gouraud); })},
       {"clip", "depth_clamp_ignored", "near and far planes cut, though depths are to be clamped",

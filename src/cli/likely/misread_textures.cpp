@@ -64,6 +64,14 @@ Change of_texels(To to) {
   });
 }
 
+// IEC 61966-2-1; alpha is linear.
+glm::vec4 srgb_decoded(const glm::vec4& texel) {
+  glm::vec4 out = texel;
+  for (int i = 0; i < 3; ++i)
+    out[i] = texel[i] <= 0.04045f ? texel[i] / 12.92f : std::pow((texel[i] + 0.055f) / 1.055f, 2.4f);
+  return out;
+}
+
 bool squares_distance_alone(Draw& d) {
   return d.fog && d.fog->mode == Fog::Mode::exp2 && reset(d.fog->density, std::sqrt(d.fog->density));
 }
@@ -100,6 +108,7 @@ std::vector<MisreadState> states_of_textures() {
        of_texels([](const glm::vec4& c) { return glm::vec4(c.b, c.g, c.r, c.a); })},
       {"texture", "bytes_reversed", "texels are read from their last byte: alpha is taken for red",
        of_texels([](const glm::vec4& c) { return glm::vec4(c.a, c.b, c.g, c.r); })},
+      {"texture", "srgb_decoded", "texels are taken for sRGB, and decoded", of_texels(srgb_decoded)},
       {"texture", "bias_negated", "the texture's level-of-detail bias is subtracted",
        of_samplers([](Sampler& s) { return reset(s.lod_bias, -s.lod_bias); })},
       {"texture", "lod_limits_ignored", "levels of detail have no least and no largest value",
