@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "reference/arithmetic/bounded.h"
 
@@ -19,6 +20,16 @@ Interval operator*(Interval a, Interval b) {
 Interval operator/(Interval a, double b) { return {a.lo / b, a.hi / b}; }
 Interval lesser(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 Interval greater(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+
+bool are_complements(BlendFactor a, BlendFactor b) {
+  using enum BlendFactor;
+  constexpr std::pair<BlendFactor, BlendFactor> kPairs[] = {
+      {source_color, one_minus_source_color},     {destination_color, one_minus_destination_color},
+      {source_alpha, one_minus_source_alpha},     {destination_alpha, one_minus_destination_alpha},
+      {constant_color, one_minus_constant_color}, {constant_alpha, one_minus_constant_alpha}};
+  return std::ranges::any_of(
+      kPairs, [&](const auto& p) { return (p.first == a && p.second == b) || (p.first == b && p.second == a); });
+}
 
 /// Blending of colours and factors in units of the largest code (`one`), in which stored colours are whole numbers.
 struct Blender {
@@ -51,9 +62,11 @@ struct Blender {
   Interval destination_term(const BlendTerm& term, std::size_t c) const {
     return destination[c] * factor(term.destination, c) / one;
   }
-  /// Largest sum of the terms' absolute values, of which roundings in float take shares.
+  /// Largest sum of absolute values that are rounded: the terms; the colours where the factors are complements, as
+  /// a renderer may have s a + d (1 - a) as d + a (s - d).
   double magnitude(const BlendTerm& term, std::size_t c) const {
     const auto largest = [](Interval v) { return std::max(std::abs(v.lo), std::abs(v.hi)); };
+    if (are_complements(term.source, term.destination)) return largest(source[c]) + largest(destination[c]);
     return largest(source_term(term, c)) + largest(destination_term(term, c));
   }
 
@@ -157,13 +170,22 @@ FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending,
 void FrameColor::write(const Merge& state, const ColorInterval& color) {
   const Interval lowest{0, 0}, highest{unit_, unit_};
   const auto clamped = [&](Interval v) { return codes_ ? lesser(greater(v, lowest), highest) : v; };
-  const double half = blends_codes_ ? 0.5 : 0;
+  // What rounding to a code adds, where blending is in codes.
+  const double below = !blends_codes_ || rounding_ == Conventions::Rounding::up ? 0
+                       : rounding_ == Conventions::Rounding::nearest            ? 0.5
+                                                                                : 1,
+               above = blends_codes_ ? 1 - below : 0;
   constexpr double kRoundings = 4;  // in float, of a factor, two products and their sum
   ColorInterval source, blended, result, constant = around(glm::dvec4(0), 0);
   std::array<double, 4> rounding{};  // of blending in float
   for (std::size_t c = 0; c < 4; ++c) source[c] = clamped({color[c].lo * unit_, color[c].hi * unit_});
-  for (std::size_t c = 0; c < 4; ++c) blended[c] = clamped({source[c].lo - half, source[c].hi + half});
-  if (state.blend) constant = around(glm::dvec4(state.blend->color) * unit_, half);
+  for (std::size_t c = 0; c < 4; ++c) blended[c] = clamped({source[c].lo - below, source[c].hi + above});
+  for (std::size_t c = 0; state.blend && c < 4; ++c) {
+    const double v = static_cast<double>(state.blend->color[static_cast<int>(c)]) * unit_;
+    const double slack = unit_ * 0x1p-22;  // of v, scaled in float
+    constant[c] =
+        blends_codes_ ? clamped({std::ceil(v - below - slack), std::floor(v + above + slack)}) : clamped({v, v});
+  }
   for (std::size_t c = 0; c < 4; ++c) {
     if (!state.blend || state.logic_op) {
       result[c] = source[c];
@@ -173,11 +195,17 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
     const BlendTerm& term = c < 3 ? state.blend->rgb : state.blend->alpha;
     const bool multiplies = term.equation != BlendEquation::min && term.equation != BlendEquation::max;
     const Interval sum = blender(term, c);
-    const double products = multiplies ? 2 * half : 0;
-    result[c] = clamped({sum.lo - products, sum.hi + products});
+    const bool subtracts = multiplies && term.equation != BlendEquation::add;
+    const double less = !multiplies ? 0
+                        : subtracts ? below + above
+                                    : 2 * below,
+                 more = !multiplies ? 0
+                        : subtracts ? below + above
+                                    : 2 * above;
+    result[c] = clamped({sum.lo - less, sum.hi + more});
     rounding[c] = !multiplies        ? 0
                   : blends_in_float_ ? kRoundings * kFloatRounding * blender.magnitude(term, c)
-                                     : 0x1p-48 * std::max(std::abs(sum.lo), std::abs(sum.hi));
+                                     : 0x1p-48 * blender.magnitude(term, c);
   }
   // Slack of the rounding to codes. Not blended: two float roundings (colour, scale to codes). Blended in double: ten
   // 2^-53 of the largest code. Blended in float: 8 u of the largest code (factor and product of two terms, the stored

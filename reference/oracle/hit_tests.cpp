@@ -23,10 +23,10 @@ Outcomes alpha_test(const AlphaTest& test, ColorFormat format, Conventions::Alph
 /// Most pieces of a triangle that may cover the pixel of its hit. Possible hit of a cut triangle: two, as snapping may
 /// reverse a sliver of the fan, which then covers the pixel together with its neighbour. Inclusive tie rule: two on a
 /// diagonal of the fan; at the border seven, where all pieces may meet at one corner (9 corners).
-std::uint32_t most_pieces(const Triangle& t, const Hit& hit, Conventions::TieRule rule) {
+std::uint32_t most_pieces(const Triangle& t, const PixelHit& hit, Conventions::TieRule rule) {
   if (!t.cut) return 1;
-  if (rule != Conventions::TieRule::inclusive) return hit.certain ? 1 : 2;
-  return hit.certain ? 2 : 7;
+  if (rule != Conventions::TieRule::inclusive) return hit.hit.certain ? 1 : 2;
+  return !hit.hit.certain ? 7 : hit.at_diagonal ? 2 : 1;
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, co
     hit.alpha_passes = alpha.may_pass;
     hit.alpha_fails = alpha.may_fail;
   }
-  hit.pieces = most_pieces(t, hit, conventions.tie_rule);
+  hit.pieces = most_pieces(t, out, conventions.tie_rule);
   if (!draw.stencil) return;
   const bool front = t.sign > 0;
   hit.stencil = front ? &draw.stencil->front : &draw.stencil->back;

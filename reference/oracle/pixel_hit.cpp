@@ -49,17 +49,9 @@ bool is_cut_off(const PixelSite& site, double delta) {
   return z < -most || z > 1 + most;
 }
 
-/// Whether a cut may make an edge within `delta` [pixels] of the pixel's sample that the tie rule takes from the
-/// triangle: along a side of the frame or, by an exclusive rule, along a diagonal of the cut polygon.
-bool is_at_cut(const PixelSite& site, double delta) {
-  const Projected& scene = site.scene;
-  const Conventions::TieRule rule = scene.conventions.tie_rule;
-  if (!site.t.cut || rule == Conventions::TieRule::inclusive) return false;
-  const glm::dvec2 from_side =
-      0.5 * glm::dvec2(scene.width, scene.height) - glm::abs(glm::dvec2(site.d) + scene.to_frame);
-  if (from_side.x <= delta || from_side.y <= delta) return true;
-  if (rule != Conventions::TieRule::exclusive) return false;
-  const auto is_at_diagonal = [&](const std::vector<glm::dvec2>& corners) {
+/// True if the sample is within `delta` [pixels] of a diagonal, or a border, of the polygon that a cut leaves.
+bool is_at_diagonal(const PixelSite& site, double delta) {
+  const auto is_near = [&](const std::vector<glm::dvec2>& corners) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       for (std::size_t k = i + 1; k < corners.size(); ++k) {
         const std::array segment{corners[i], corners[k], corners[k]};
@@ -68,7 +60,31 @@ bool is_at_cut(const PixelSite& site, double delta) {
     }
     return false;
   };
-  return is_at_diagonal(site.t.outline) || is_at_diagonal(site.t.guarded.outline);
+  return is_near(site.t.outline) || is_near(site.t.guarded.outline);
+}
+
+/// True if the sample is within `delta` [pixels] of a side of the frame whose samples the tie rule may take from a
+/// triangle that the side cuts. Sides are whole pixels: rounding to the nearest puts cut corners back onto them.
+bool is_at_side(const PixelSite& site, double delta) {
+  const Projected& scene = site.scene;
+  const Conventions& c = scene.conventions;
+  const bool is_on_grid = c.subpixel_rounding == Conventions::Rounding::nearest;
+  const double off = is_on_grid ? std::max(delta - scene.snap, 0.0) : delta;
+  const glm::dvec2 from_middle = glm::dvec2(site.d) + scene.to_frame,
+                   half = 0.5 * glm::dvec2(scene.width, scene.height);
+  const auto takes = [&](double from_side, const glm::dvec2& inward) {
+    return from_side <= off && !(is_on_grid && settles_ties(c) && owns_ties(c.tie_rule, inward));
+  };
+  return takes(half.x + from_middle.x, {1, 0}) || takes(half.x - from_middle.x, {-1, 0}) ||
+         takes(half.y + from_middle.y, {0, 1}) || takes(half.y - from_middle.y, {0, -1});
+}
+
+/// True if a cut may make an edge within `delta` [pixels] of the sample that the tie rule takes from the triangle.
+/// `at_diagonal`: is_at_diagonal(), whose samples an exclusive rule takes.
+bool is_at_cut(const PixelSite& site, bool at_diagonal, double delta) {
+  const Conventions::TieRule rule = site.scene.conventions.tie_rule;
+  if (!site.t.cut || rule == Conventions::TieRule::inclusive) return false;
+  return (rule == Conventions::TieRule::exclusive && at_diagonal) || is_at_side(site, delta);
 }
 
 /// Sets the depth interval: the plane's z at the pixel, displaced by up to h + delta_E (depth_corners may be snapped)
@@ -127,7 +143,10 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
-  const bool at_cut = is_at_cut(site, out.delta);
+  const Conventions::TieRule rule = projected.conventions.tie_rule;
+  const bool is_of_pieces = rule == Conventions::TieRule::inclusive || rule == Conventions::TieRule::exclusive;
+  out.at_diagonal = t.cut && is_of_pieces && is_at_diagonal(site, out.delta);
+  const bool at_cut = is_at_cut(site, out.at_diagonal, out.delta);
   out.hit.certain = site.inside && site.border > out.delta && !t.thin && !at_cut;
   // Two triangles whose shared edge a side plane cuts may round the new corner, down or up, to different grid points.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;

@@ -26,6 +26,7 @@ struct PixelHit {
   /// In double, the pixel is covered (`covers` where it is known, else with ties by rule left_bottom), in depth
   /// range, and not culled.
   bool inside = false;
+  bool at_diagonal = false;  ///< inclusive or exclusive tie rule: the sample may lie on a diagonal of the cut triangle
   bool covered_inside = false;  ///< every legal renderer covers the pixel with the triangle's inside
   bool may_join_group = false;  ///< not culled, not cut in depth here; side cuts round alike
   PixelDepth view;              ///< z_view: 0 on the near plane, 1 on the far one; not clamped. half: includes snapping

@@ -38,7 +38,7 @@ struct Hit {
   /// Stencil state of the face that the hit shows; `or_stencil`: of the other face where facing is open. Null: no test.
   const StencilFace* stencil = nullptr;
   const StencilFace* or_stencil = nullptr;
-  std::uint32_t pieces = 1;  ///< of the triangle, that may cover the pixel: its stencil operation may run as often
+  std::uint32_t pieces = 1;  ///< most pieces of the triangle at the pixel, each with a stencil operation
   /// Hits of one surface (>= 0) have one depth in every legal renderer, to the bit: the same triangle is drawn again.
   std::int32_t surface = kNoSurface;
 };

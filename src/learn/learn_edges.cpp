@@ -105,15 +105,15 @@ std::optional<Grid> implied(const std::vector<Edge>& edges, int bits, C::Roundin
   return Grid{bits, rounding, sample, n, edges.size(), most - least, most - least <= most_scatter};
 }
 
-// The grid that explains the edges, and by which the sample's place scatters least; the finest of equally good ones.
-// Where none explains them: no grid, and what the edges imply without one.
+// Best grid: of those that explain the edges, the one of least scatter, the finest of equals; else kFloat.
 std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int most_bits, int lost_rows) {
   const std::optional<Grid> without = implied(edges, C::kFloat, C::Rounding::nearest, lost_rows);
   std::optional<Grid> best = without;
   for (int bits = most_bits; bits >= least_bits; --bits) {
     for (const C::Rounding rounding : {C::Rounding::nearest, C::Rounding::down, C::Rounding::up}) {
       const auto grid = implied(edges, bits, rounding, lost_rows);
-      if (grid && grid->explains && (!best || grid->scatter < best->scatter - 0.5 * edges.front().rise / kLong))
+      if (grid && grid->explains &&
+          (!best || !best->explains || grid->scatter < best->scatter - 0.5 * edges.front().rise / kLong))
         best = grid;
     }
   }
@@ -218,7 +218,7 @@ glm::dvec2 sample_by_diagonal(Prober& prober, glm::dvec2 sample) {
   return best;
 }
 
-// Grids of rows and of columns. Says of triangles that reach beyond their edges, or not to them.
+// Grids of rows and of columns.
 struct Grids {
   std::optional<Grid> rows, columns;
   bool explain() const { return rows && columns && rows->explains && columns->explains; }
@@ -227,6 +227,7 @@ struct Grids {
     return rows && columns ? std::max(rows->scatter, columns->scatter) : std::numeric_limits<double>::infinity();
   }
 };
+// Grids that edges imply. Reports triangles that cover samples beyond their edges, or too few.
 Grids grids_of(Prober& prober) {
   Grids out;
   double reach = 0;
@@ -242,10 +243,10 @@ Grids grids_of(Prober& prober) {
   return out;
 }
 
-// The sample's place that the grids imply: at a multiple of 1/2 where it may be there. nullopt: the picture is shifted,
-// which is said.
+// The sample's place that the grids imply: at a multiple of 1/2 where it may be there. nullopt, with a finding: the
+// picture is shifted.
 std::optional<glm::dvec2> sample_of(Prober& prober, const Grids& grids) {
-  const double uncertain = grids.explain() ? 1.5 / kLong : grids.scatter();
+  const double of_mean = grids.explain() ? 0 : grids.scatter() / 8, uncertain = 1.5 / kLong + of_mean;
   const auto placed = [&](double at) {
     return (std::abs(at - std::round(2 * at) / 2) < uncertain ? std::round(2 * at) / 2 : at) + 0.0;  // -0 is 0
   };

@@ -77,12 +77,14 @@ Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample, C::Interpolat
   Levels out;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
-      if (std::abs(x - y) < 3) continue;
+      if (std::abs(x - y) < 3 || may_be_nobodys(x, y, sample)) continue;
       const int left = x & ~1, low = y & ~1;
       std::array<double, 4> lambdas{};
       std::array<double, 4> found{};
+      bool is_whole = true;  // of pixels that are someone's
       for (int k = 0; k < 4; ++k) {
         const glm::ivec2 at(left + k % 2, low + k / 2);
+        is_whole &= !may_be_nobodys(at.x, at.y, sample);
         lambdas[static_cast<std::size_t>(k)] = lambda_at(at.x, at.y, x > y);
         found[static_cast<std::size_t>(k)] = drawn(at.x, at.y);
       }
@@ -91,7 +93,7 @@ Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample, C::Interpolat
       ++out.pixels;
       out.own += is == level(lambda_at(x, y, x > y)) ? 1 : 0;
       out.of_square += is >= level(least - 0.05) && is <= level(most + 0.01) ? 1 : 0;
-      if (x != left || y != low || level(least) == level(most)) continue;
+      if (!is_whole || x != left || y != low || level(least) == level(most)) continue;
       ++out.squares;
       out.alike += std::ranges::all_of(found, [&](double l) { return l == is; }) ? 1 : 0;
     }

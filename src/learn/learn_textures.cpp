@@ -44,14 +44,6 @@ Plane<glm::vec4> middle_of(Prober& prober, const std::string& name, Texture text
 // Texels from the first one's centre, of `size` in a row, at a pixel of middle_of().
 double texels_at(double pixel, int size) { return (size - 1) * static_cast<double>(kMiddle) * pixel / kTexturedSize; }
 
-// Pixels that may be nobody's: those with samples on a textured frame's diagonal, or on a side of it.
-bool may_be_nobodys(int x, int y, const glm::dvec2& sample) {
-  const auto is_on_side = [](int at, double offset) {
-    return (at == 0 && offset == 0) || (at == kTexturedSize - 1 && offset == 1);
-  };
-  return x == y || is_on_side(x, sample.x) || is_on_side(y, sample.y);
-}
-
 // Errors of the weights between a black texel and a white one, at each column, those of colours in codes included.
 struct WeightErrors {
   double least = std::numeric_limits<double>::infinity(), most = -least, mean = 0;

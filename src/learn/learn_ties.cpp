@@ -96,7 +96,7 @@ void learn_ties(Prober& prober) {
     c.tie_rule = by_rule[best] == samples.one ? kRules[best] : C::TieRule::any;
     evidence += fmt::format(", {} by {}", by_rule[best], name_of(kRules[best]));
     if (c.tie_rule == C::TieRule::any)
-      evidence += ": no rule, as of edges that are stepped in float, or of corners in their order";
+      evidence += ": no rule: edges stepped in float, or a rule by the order of corners";
   } else if (straight.both == straight.all() && samples.none == 0) {
     c.tie_rule = C::TieRule::inclusive;
   } else if (straight.none == straight.all() && samples.both == 0) {

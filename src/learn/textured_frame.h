@@ -38,4 +38,12 @@ Texture texture_of(int size, auto code) {
   return out;
 }
 
+/// Pixels that may be nobody's: those with samples on a textured frame's diagonal, or on a side of it.
+inline bool may_be_nobodys(int x, int y, const glm::dvec2& sample) {
+  const auto is_on_side = [](int at, double offset) {
+    return (at == 0 && offset == 0) || (at == kTexturedSize - 1 && offset == 1);
+  };
+  return x == y || is_on_side(x, sample.x) || is_on_side(y, sample.y);
+}
+
 }  // namespace plumbline::learn

@@ -114,9 +114,10 @@ TEST(LearnEdges, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
 
 // Products in float: each corner lies up to 1/50 pixel off its place. The sample, and what follows from it, is known.
 TEST(LearnEdges, ASampleIsFoundWhereEdgesScatter) {
-  const auto learned_off_by = [](float most) {
+  const auto learned_off_by = [](float most, double sample) {
     auto renderer = std::make_unique<OfAlteredScenes>();
-    renderer->before = [most](Scene& scene) {
+    renderer->before = [=](Scene& scene) {
+      scene.frame.pass.shift += 0.5 - sample;
       if (!scene.name.starts_with("probe/grid")) return;
       std::uint32_t state = 1;
       for (Mesh& mesh : scene.meshes) {
@@ -130,8 +131,11 @@ TEST(LearnEdges, ASampleIsFoundWhereEdgesScatter) {
     };
     return learned(std::move(renderer));
   };
-  const C found = learned_off_by(0.02f), lost = learned_off_by(0.3f);
+  const C found = learned_off_by(0.02f, 0.5), lost = learned_off_by(0.3f, 0.5);
   EXPECT_EQ(found.sample, glm::dvec2(0.5));
+  const glm::dvec2 aside = learned_off_by(0.02f, 0.4375).sample;
+  EXPECT_NEAR(aside.x, 0.4375, 0.01);
+  EXPECT_NEAR(aside.y, 0.4375, 0.01);
   EXPECT_EQ(found.tie_rule, C::TieRule::left_bottom);
   EXPECT_THAT(found.open, testing::IsSupersetOf({"subpixel_bits", "subpixel_rounding"}));
   EXPECT_THAT(found.open, testing::Not(testing::Contains("sample")));

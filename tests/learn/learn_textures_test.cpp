@@ -25,6 +25,7 @@ TEST(LearnTextures, SamplesOnSidesThatAreNobodysAreNoTexels) {
   EXPECT_EQ(found.sample, glm::dvec2(0));
   EXPECT_EQ(found.texture_bits, C::kFloat);
   EXPECT_EQ(std::ranges::count(found.open, "texture_bits"), 0);
+  EXPECT_EQ(found.level_of_detail, C::LevelOfDetail::per_pixel);
 }
 
 TEST(LearnTextures, LevelsOfDetailThatAreApproximatedAreFound) {

@@ -1,4 +1,5 @@
 // Blending in a pixel of the frame: roundings in float and in codes.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -48,7 +49,7 @@ TEST(BlendedFrame, AFloatFrameHoldsTheRoundingsOfBlendingInFloat) {
       return by.written()[0].lo <= static_cast<double>(held) && static_cast<double>(held) <= by.written()[0].hi;
     };
     EXPECT_TRUE(holds(floats)) << i;
-    EXPECT_LT(floats.written()[0].hi - floats.written()[0].lo, 2 * 16 * 5 * 0x1p-24);
+    EXPECT_LT(floats.written()[0].hi - floats.written()[0].lo, 2 * 16 * (4 * 2 + 1) * 0x1p-24);
     beyond_double += holds(doubles) ? 0 : 1;
   }
   EXPECT_GT(beyond_double, 100);
@@ -64,6 +65,50 @@ TEST(BlendedFrame, ConstantsAreCodesWhereBlendingIs) {
     const double sum = 2 * std::nearbyint(253 * constant / 255);
     EXPECT_LE(255 * color.written()[0].lo, sum + 0.5);
     EXPECT_GE(255 * color.written()[0].hi, sum - 0.5);
+  }
+  EXPECT_LT(255 * (color.written()[0].hi - color.written()[0].lo), 7) << "of both constants 2, of four roundings 4";
+  merge = blending(BlendFactor::constant_color, BlendFactor::one_minus_constant_color);
+  merge.blend->color = glm::vec4(1);
+  FrameColor kept(frame_of(ColorFormat::rgba8, glm::vec4(0)), Conventions::Blending::in_codes);
+  kept.write(merge, around(glm::dvec4(100 / 255.0), 0));
+  EXPECT_NEAR(255 * kept.written()[0].hi, 101.5, 1e-9) << "a constant of a code is that code";
+}
+
+// Source, constant and products truncated to codes.
+TEST(BlendedFrame, CodesAreRoundedDownWhereThatIsDeclared) {
+  std::mt19937 random(2);
+  const auto drawn = [&](double most) { return std::uniform_real_distribution<double>(0, most)(random); };
+  for (int i = 0; i < 2000; ++i) {
+    const double source = drawn(255), constant = drawn(255), held = std::floor(drawn(255));
+    Merge merge = blending(BlendFactor::constant_color, BlendFactor::one_minus_constant_color,
+                           i % 2 == 0 ? BlendEquation::add : BlendEquation::subtract);
+    merge.blend->color = glm::vec4(static_cast<float>(constant / 255));
+    FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(static_cast<float>(held / 255))),
+                     Conventions::Blending::in_codes, Conventions::Rounding::down);
+    color.write(merge, around(glm::dvec4(source / 255), 0));
+    const double k = std::floor(constant), s = std::floor(std::floor(source) * k / 255),
+                 d = std::floor(held * (255 - k) / 255), sum = std::clamp(i % 2 == 0 ? s + d : s - d, 0.0, 255.0);
+    EXPECT_LE(255 * color.written()[0].lo, sum + 1e-6) << i;
+    EXPECT_GE(255 * color.written()[0].hi, sum - 1e-6) << i;
+  }
+}
+
+// d + a (s - d) for s a + d (1 - a).
+TEST(BlendedFrame, AFloatFrameHoldsMixesByOneProduct) {
+  Merge mix = blending(BlendFactor::constant_alpha, BlendFactor::one_minus_constant_alpha);
+  std::mt19937 random(3);
+  const auto drawn = [&](float least, float most) {
+    return std::uniform_real_distribution<float>(least, most)(random);
+  };
+  for (int i = 0; i < 4000; ++i) {
+    const float s = drawn(0, 0.1f), d = drawn(0, 1), a = drawn(0.9f, 1);
+    mix.blend->color.a = a;
+    FrameColor color(frame_of(ColorFormat::rgba32f, glm::vec4(d)), Conventions::Blending::in_float,
+                     Conventions::Rounding::nearest, BlendedIn::floats);
+    color.write(mix, around(glm::dvec4(s), 0));
+    const float difference = s - d, product = a * difference, mixed = d + product;
+    EXPECT_LE(color.written()[0].lo, static_cast<double>(mixed)) << i;
+    EXPECT_GE(color.written()[0].hi, static_cast<double>(mixed)) << i;
   }
 }
 

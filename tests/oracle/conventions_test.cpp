@@ -237,20 +237,22 @@ TEST(OracleConventions, AnInclusiveRuleBlendsAndCountsByBothPieces) {
   inclusive.tie_rule = C::TieRule::inclusive, left_bottom.tie_rule = C::TieRule::left_bottom;
   scene.draws[0].merge.blend = Blend{};
   EXPECT_FALSE(std::isfinite(legal(scene, inclusive).color_hi(16, 16).r));
+  EXPECT_TRUE(std::isfinite(legal(scene, inclusive).color_hi(5, 20).r)) << "on no diagonal";
   EXPECT_TRUE(std::isfinite(legal(scene, left_bottom).color_hi(16, 16).r));
   scene.draws[0].merge.blend.reset();
   scene.frame.stencil = StencilFormat::s8;
   StencilFace counts;
   counts.func = CompareFunc::always, counts.pass = StencilOp::increment;
   scene.draws[0].stencil = Stencil{counts, counts};
-  const auto stencils = [&](const C& by) {
+  const auto stencils = [&](const C& by, glm::ivec2 pixel = {16, 16}) {
     const Legal answers = legal(scene, by);
     std::vector<int> out;
-    for (const LegalAnswer& answer : answers.at(16, 16)) out.push_back(answer.stencil);
+    for (const LegalAnswer& answer : answers.at(pixel.x, pixel.y)) out.push_back(answer.stencil);
     std::ranges::sort(out);
     return out;
   };
   EXPECT_EQ(stencils(inclusive), (std::vector{1, 2}));
+  EXPECT_EQ(stencils(inclusive, {5, 20}), std::vector{1});
   EXPECT_EQ(stencils(left_bottom), std::vector{1});
 }
 

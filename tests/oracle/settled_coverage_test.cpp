@@ -173,10 +173,17 @@ std::size_t certain_within(const C& conventions) {
 
 // Samples on a side of the frame, where a renderer may cut: a rule gives them to the cut triangle, or takes them.
 TEST(SettledCoverage, IsOpenOnSidesThatCut) {
+  EXPECT_EQ(open_within(declared(C::TieRule::left_bottom)), 0u);
+  EXPECT_EQ(open_within(declared(C::TieRule::left_bottom, 0)), 0u) << "the sides are whole pixels";
+  for (const auto& [rule, open] : {std::pair(C::TieRule::left_bottom, 0), std::pair(C::TieRule::right_bottom, kSize),
+                                   std::pair(C::TieRule::right_top, 2 * kSize - 1)}) {
+    C at_corner = declared(rule);
+    at_corner.sample = {0, 0};
+    EXPECT_EQ(open_within(at_corner), static_cast<std::size_t>(open)) << name_of(rule);
+    at_corner.subpixel_bits = C::kFloat;
+    EXPECT_EQ(open_within(at_corner), 2u * kSize - 1) << "floats may lie beside the first column and row";
+  }
   C at_corner = declared(C::TieRule::left_bottom);
-  EXPECT_EQ(open_within(at_corner), 0u);
-  at_corner.sample = {0, 0};
-  EXPECT_EQ(open_within(at_corner), 2u * kSize - 1) << "the first column and row";
   at_corner.sample = {0.5, 1};
   EXPECT_EQ(open_within(at_corner), 1u * kSize) << "the last row";
   at_corner.sample = {0.25, 0.75};

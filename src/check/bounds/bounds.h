@@ -31,7 +31,7 @@ double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<doub
 /// Error bounds of a plane's value at a pixel centre: of depth, and of the colour's four channels.
 struct PlaneBounds {
   double depth;        ///< [u of window z]
-  Vec4<double> color;  ///< [u], to first order: too small where `inv_w` is large: color_error() holds
+  Vec4<double> color;  ///< [u], to first order; where `inv_w` is large, use color_error()
   double inv_w = 0;    ///< relative error of the interpolated 1/w [u]
   /// Line: value interpolated by the position on the major axis, as by llvmpipe, less the value at the centre's
   /// projection onto the line (OpenGL 2.1, equation 3.5); signed [window z; colour].
@@ -94,9 +94,9 @@ class OffsetErrors {
   bool any_;  // whether any draw has an offset
 };
 
-/// Values that a pixel may hold where edges of an unfilled triangle meet: for each edge within its width plus two
-/// pixels of the pixel's centre one by projection and one by the position on the major axis. Empty for fewer than two
-/// edges.
+/// Values that a pixel may hold where edges of an unfilled triangle meet: two per edge that lies within its width plus
+/// two pixels of the pixel's centre, one by projection and one by the position on the major axis. Empty for fewer than
+/// two edges.
 struct EdgeValue {
   double depth;
   Vec4<double> color;

@@ -33,7 +33,8 @@ double largest(const Vec4<double>& color) {
   return std::max({std::abs(color.r), std::abs(color.g), std::abs(color.b), std::abs(color.a)});
 }
 
-/// Largest |c| and |1 - c| of a colour's channels, and those of its alpha. Not known: of a colour in [0,1].
+/// Largest |c| and |1 - c| of a colour's channels, and those of its alpha. Default: bounds for an unknown colour in
+/// [0,1].
 struct Operand {
   double color = 1, less_color = 1, alpha = 1, less_alpha = 1;
   Operand() = default;
@@ -98,8 +99,9 @@ Plane<double> blending_roundings(const Scene& scene, const Records<double>& reco
       drawn.each(x, y, [&](std::size_t i) {
         const Draw* draw = draws.draw(records.triangles[records.covered[i].triangle].primitive);
         const Operand source = shows_colors ? Operand(records.shaded[i].color) : Operand();
-        if (draw == nullptr || !draw->merge.blend) {
-          held = larger(held, {source.color});
+        const bool replaces_all = draw != nullptr && draw->merge.color_mask == glm::bvec4(true);
+        if (draw == nullptr || !draw->merge.blend || draw->merge.logic_op) {  // float frames have no logic op
+          held = replaces_all ? Held{source.color} : larger(held, {source.color});
           return;
         }
         const Blend& blend = *draw->merge.blend;
@@ -108,7 +110,7 @@ Plane<double> blending_roundings(const Scene& scene, const Records<double>& reco
         Held rgb = held, alpha = held;
         rgb.blend(blend.rgb, source, constant), alpha.blend(blend.alpha, source, constant);
         held = larger(rgb, alpha);
-        if (draw->merge.color_mask != glm::bvec4(true)) held = larger(held, was);
+        if (!replaces_all) held = larger(held, was);
       });
       out(x, y) = held.error;
     }

@@ -182,6 +182,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
   const OthersCover others_cover(a, b);
   const std::string unit = code_unit(scene.frame);
   const bool reads = factors_read_frame(scene);
+  const Plane<double> roundings = scale > 0 ? Plane<double>() : blending_roundings(scene, candidate.records);
   return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
     const Place place{x, y, id, "color", true};
     const bool open = others_cover(x, y) || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
@@ -198,14 +199,14 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
       // Codes that no comparison can call wrong: of uncertain operands of a logic op, or of too many blended layers.
       const bool any_code =
           drawn.combined ? !drawn.certain || (drawn.reads_clear_color[c] && clear > 0) : scale > 0 && allowed >= scale;
-      if (open || !std::isfinite(bound) || any_code) {
+      if (open || !std::isfinite(bound) || any_code || (scale == 0 && !std::isfinite(roundings(x, y)))) {
         add_open_value(meter, v, place, w);
       } else if (scale > 0) {
         const double code = std::round(scale * v), code_ref = std::round(scale * w);
         meter.value(difference(code, code_ref), drawn.combined ? 0 : allowed, place, code, code_ref,
                     drawn.combined ? 0 : std::floor(scale * bound));
       } else {
-        meter.value(difference(v, w) / u, bound / u + 4 * layers * held, place, v, w);
+        meter.value(difference(v, w) / u, bound / u + roundings(x, y), place, v, w);
       }
     }
   });

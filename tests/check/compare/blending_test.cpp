@@ -59,6 +59,33 @@ TEST_F(TwoLayers, LetThroughWhatTheirFactorsDo) {
   EXPECT_EQ(roundings(), 0);
 }
 
+TEST_F(TwoLayers, ReplaceErrorsWithTheColor) {
+  records.shaded[1].color = {0.1, 0, 0, 1};
+  scene.meshes[0].triangles.emplace_back(0, 1, 2);
+  scene.draws.push_back(scene.draws[0]);
+  scene.meshes.push_back(scene.meshes[0]);
+  scene.draws[1].mesh = 1, records.triangles[1].primitive = 2;
+  const auto second = [&]() -> Merge& { return scene.draws[1].merge; };
+  EXPECT_EQ(roundings(), 4 * 3 + 4 * 4);
+  second().logic_op = LogicOp::copy;
+  EXPECT_EQ(roundings(), 0) << "the logic op takes the place of the blend";
+  second().logic_op.reset(), second().blend.reset();
+  EXPECT_EQ(roundings(), 0);
+  second().color_mask.g = false;
+  EXPECT_EQ(roundings(), 4 * 3) << "a masked channel keeps its error";
+}
+
+TEST_F(TwoLayers, TakeConstantsAndSaturatedAlphas) {
+  records.drawn[1].drawn = false;
+  scene.draws[0].merge.blend->color = glm::vec4(0.25f, -3, 0, 0.5f);
+  blend_by(BlendFactor::constant_color, BlendFactor::zero);
+  EXPECT_EQ(roundings(), 4 * 2 * 3) << "of the largest constant";
+  blend_by(BlendFactor::zero, BlendFactor::one_minus_constant_alpha);
+  EXPECT_EQ(roundings(), 4 * 0.5);
+  blend_by(BlendFactor::source_alpha_saturate, BlendFactor::zero);
+  EXPECT_EQ(roundings(), 4 * 2 * 2) << "1 - Ad is at most 2";
+}
+
 // Products of colours beyond 1: c1 (c2 clear), rounded as a renderer in float rounds them.
 TEST_F(TwoLayers, HoldForProductsOfLargeColors) {
   blend_by(BlendFactor::destination_color, BlendFactor::zero);
