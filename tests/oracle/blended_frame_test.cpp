@@ -6,21 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "reference/arithmetic/frame_color.h"
+#include "tests/oracle/blended_frames.h"
 
 namespace plumbline::math {
 namespace {
-
-Merge blending(BlendFactor source, BlendFactor destination, BlendEquation equation = BlendEquation::add) {
-  Merge out;
-  out.blend = Blend{{source, destination, equation}, {source, destination, equation}, glm::vec4(0)};
-  return out;
-}
-FrameFormat frame_of(ColorFormat color, glm::vec4 clear) {
-  FrameFormat frame;
-  frame.color = color;
-  frame.clear_color = clear;
-  return frame;
-}
 
 // Sixteen layers of haze, rounded in float as a renderer rounds them.
 TEST(BlendedFrame, AFloatFrameHoldsTheRoundingsOfBlendingInFloat) {

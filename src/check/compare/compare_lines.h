@@ -14,7 +14,7 @@ namespace plumbline::check {
 ///   most `factor` pixels, in x and in y, from the other side's nearest pixel;
 /// - at most `factor` columns more or fewer than the other side;
 /// - one pixel per column; of a wide line (3.4.2) a run of `width` pixels, which the frame or scissor box may cut.
-/// Where snapping decides a wide line's major axis, only the nearest pixels are checked, with `width` pixels more.
+/// Wide lines whose major axis snapping decides: only the nearest pixels are checked, with `width` pixels more.
 /// Lines whose pixels differ are ambiguous. Everything else that covers a pixel must be equal.
 Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   double factor);

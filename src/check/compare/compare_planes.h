@@ -15,7 +15,7 @@ namespace plumbline::check {
 /// differences at open pixels are ambiguous; if open pixels alone differ, these pixels count as different.
 Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal = {});
 
-/// Whether stencil values are compared, too.
+/// Stencil values beside winners: compared, or not shown by the candidate.
 enum class Stencils { compared, not_shown };
 
 /// Compares winners and stencil values. A pixel that differs is ambiguous if both sides' values are a legal answer,

@@ -213,7 +213,7 @@ KnownFault not_as_declared(const FaultInfo& fault) {
           .lifts = std::string(fault.name)};
 }
 
-// Whether the conventions that are declared, and not open, are of frames without the fault.
+// True: the conventions, declared and not open, are of frames without the fault.
 bool is_contradicted(const std::string_view fault, const Conventions& conventions) {
   const bool of_rows = fault == "file.rows_reversed" || fault == "window.y_flipped",
              of_depths = fault == "file.depth_of_ndc" || fault == "file.depth_reversed";

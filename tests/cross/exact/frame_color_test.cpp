@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/merge.h"
+#include "tests/oracle/blended_frames.h"
 
 namespace plumbline {
 namespace {
@@ -15,18 +16,6 @@ using math::around;
 using math::FrameColor;
 
 constexpr int kFactors = 15, kEquations = 5;
-
-Merge blending(BlendFactor source, BlendFactor destination, BlendEquation equation = BlendEquation::add) {
-  Merge out;
-  out.blend = Blend{{source, destination, equation}, {source, destination, equation}, {0.5f, 0.25f, 0.75f, 0.125f}};
-  return out;
-}
-FrameFormat frame_of(ColorFormat color, glm::vec4 clear) {
-  FrameFormat frame;
-  frame.color = color;
-  frame.clear_color = clear;
-  return frame;
-}
 
 TEST(FrameColor, WhatIsWrittenLastIsNotRoundedButWhatIsReadIs) {
   FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(0.3f)));  // 76.5 and some 1e-6
