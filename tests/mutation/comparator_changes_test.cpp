@@ -1,4 +1,5 @@
 // The table of scripts/mutate_comparators: each text that it replaces stands once in its file.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -34,6 +35,7 @@ TEST(ComparatorChanges, EachTextStandsOnceInItsFile) {
     ++rows;
     const std::vector<std::string> fields = fields_of(line, '\t');
     ASSERT_TRUE(fields.size() == 4 || fields.size() == 5) << "tests/check/mutations.tsv:" << number;
+    EXPECT_EQ(std::ranges::count(fields, ""), 0) << "tests/check/mutations.tsv:" << number << ": bash joins two tabs";
     EXPECT_EQ(occurrences(with_line_ends(fields[1]), test::text_of(kProject / fields[0])), 1u)
         << "tests/check/mutations.tsv:" << number << ": " << fields[0] << ": " << fields[1];
     EXPECT_NE(fields[1], fields[2]) << "tests/check/mutations.tsv:" << number;
