@@ -21,16 +21,6 @@ Interval operator/(Interval a, double b) { return {a.lo / b, a.hi / b}; }
 Interval lesser(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 Interval greater(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
-bool are_complements(BlendFactor a, BlendFactor b) {
-  using enum BlendFactor;
-  constexpr std::pair<BlendFactor, BlendFactor> kPairs[] = {
-      {source_color, one_minus_source_color},     {destination_color, one_minus_destination_color},
-      {source_alpha, one_minus_source_alpha},     {destination_alpha, one_minus_destination_alpha},
-      {constant_color, one_minus_constant_color}, {constant_alpha, one_minus_constant_alpha}};
-  return std::ranges::any_of(
-      kPairs, [&](const auto& p) { return (p.first == a && p.second == b) || (p.first == b && p.second == a); });
-}
-
 /// Blending of colours and factors in units of the largest code (`one`), in which stored colours are whole numbers.
 struct Blender {
   const ColorInterval &source, &destination, &constant;
@@ -131,6 +121,16 @@ double in_float(double v) {
 
 }  // namespace
 
+bool are_complements(BlendFactor a, BlendFactor b) {
+  using enum BlendFactor;
+  constexpr std::pair<BlendFactor, BlendFactor> kPairs[] = {
+      {source_color, one_minus_source_color},     {destination_color, one_minus_destination_color},
+      {source_alpha, one_minus_source_alpha},     {destination_alpha, one_minus_destination_alpha},
+      {constant_color, one_minus_constant_color}, {constant_alpha, one_minus_constant_alpha}};
+  return std::ranges::any_of(
+      kPairs, [&](const auto& p) { return (p.first == a && p.second == b) || (p.first == b && p.second == a); });
+}
+
 double to_whole(Conventions::Rounding rounding, double v) {
   switch (rounding) {
     case Conventions::Rounding::nearest: return std::nearbyint(v);
@@ -170,7 +170,7 @@ FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending,
 void FrameColor::write(const Merge& state, const ColorInterval& color) {
   const Interval lowest{0, 0}, highest{unit_, unit_};
   const auto clamped = [&](Interval v) { return codes_ ? lesser(greater(v, lowest), highest) : v; };
-  // What rounding to a code adds, where blending is in codes.
+  // Range of a rounding to a code, where blending is in codes: [-below, above].
   const double below = !blends_codes_ || rounding_ == Conventions::Rounding::up ? 0
                        : rounding_ == Conventions::Rounding::nearest            ? 0.5
                                                                                 : 1,
@@ -196,12 +196,8 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
     const bool multiplies = term.equation != BlendEquation::min && term.equation != BlendEquation::max;
     const Interval sum = blender(term, c);
     const bool subtracts = multiplies && term.equation != BlendEquation::add;
-    const double less = !multiplies ? 0
-                        : subtracts ? below + above
-                                    : 2 * below,
-                 more = !multiplies ? 0
-                        : subtracts ? below + above
-                                    : 2 * above;
+    const double less = !multiplies ? 0 : below + (subtracts ? above : below),
+                 more = !multiplies ? 0 : above + (subtracts ? below : above);
     result[c] = clamped({sum.lo - less, sum.hi + more});
     rounding[c] = !multiplies        ? 0
                   : blends_in_float_ ? kRoundings * kFloatRounding * blender.magnitude(term, c)

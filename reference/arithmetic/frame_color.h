@@ -28,6 +28,9 @@ glm::vec4 low(const ColorInterval& color);
 glm::vec4 high(const ColorInterval& color);
 glm::dvec4 middle(const ColorInterval& color);
 
+/// True: the factors sum to 1, so that a renderer may have s a + d (1 - a) as d + a (s - d).
+bool are_complements(BlendFactor a, BlendFactor b);
+
 /// Numbers that a renderer blends in; their roundings decide to which code a sum half way between two goes.
 enum class BlendedIn { doubles, floats };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "check/bounds/fragment_bounds.h"
+#include "reference/arithmetic/frame_color.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -80,7 +81,8 @@ struct Held {
     }
     const Factor s = factor(term.source, source, constant, was), d = factor(term.destination, source, constant, was);
     most = source.color * s.most + was * d.most;
-    error = error * (source.color * s.per_held + d.most + was * d.per_held) + kPerLayer * most;
+    const double rounded = math::are_complements(term.source, term.destination) ? source.color + was : most;
+    error = error * (source.color * s.per_held + d.most + was * d.per_held) + kPerLayer * rounded;
   }
 };
 

@@ -50,7 +50,7 @@ TEST_F(TwoLayers, RoundFourTimesEach) {
 
 TEST_F(TwoLayers, LetThroughWhatTheirFactorsDo) {
   blend_by(BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha);
-  EXPECT_EQ(roundings(), 4 * 2) << "an alpha of 1 hides what is beneath";
+  EXPECT_EQ(roundings(), 4 * (2 + 2)) << "d + a (s - d) of 2 and 2; an alpha of 1 hides the first layer's error";
   blend_by(BlendFactor::destination_color, BlendFactor::zero);  // 2 x 1, then 2 x 2
   EXPECT_EQ(roundings(), 4 * 2 * 2 + 4 * 4) << "the product doubles the error, too";
   blend_by(BlendFactor::zero, BlendFactor::destination_color);  // held x held
