@@ -24,8 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLongestAnswer = 1 << 16;
-
 /// The strings as execve wants them.
 std::vector<char*> pointers(std::vector<std::string>& strings) {
   std::vector<char*> out;
@@ -240,12 +238,13 @@ std::optional<std::string> ServerProgram::ask(const std::string& line) {
   }
   if (guardian_ >= 0 && ::send(conversation_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) out = answer();
   if (out) return out;
-  const bool late = Clock::now() - start >= time_limit_;
+  const bool rambled = heard_.size() > kLongestAnswer, late = !rambled && Clock::now() - start >= time_limit_;
   // Where the program has ended by itself, its guardian has said so, or is about to.
   pollfd told{ending_, POLLIN, 0};
-  if (!late) ::poll(&told, 1, 1000);
+  if (!late && !rambled) ::poll(&told, 1, 1000);
   stop();
   end_.hung = late;
+  end_.rambled = rambled;
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,12 +10,16 @@
 
 namespace plumbline {
 
+/// The longest line [bytes] that a server may answer.
+inline constexpr std::size_t kLongestAnswer = 1 << 16;
+
 /// How a program ended.
 struct ProgramEnd {
-  int start_error = 0;  ///< errno, where it could not be started
-  bool hung = false;    ///< it took longer than the time limit and was killed
-  bool spoke = false;   ///< a server answered before it was asked, and was killed
-  int status = 0;       ///< else its wait status, for WIFEXITED() and its like
+  int start_error = 0;   ///< errno, where it could not be started
+  bool hung = false;     ///< it took longer than the time limit and was killed
+  bool spoke = false;    ///< a server answered before it was asked, and was killed
+  bool rambled = false;  ///< a server's answer was longer than kLongestAnswer, and it was killed
+  int status = 0;        ///< else its wait status, for WIFEXITED() and its like
 };
 
 struct ProgramCall {
@@ -43,7 +48,7 @@ class ServerProgram {
   ServerProgram& operator=(const ServerProgram&) = delete;
 
   /// Sends a line and returns the program's answer, a line without its end. None where the program ended, took longer
-  /// than the time limit, answered beyond 64 KiB, or wrote before it was asked: it is killed then, and end() says why.
+  /// than the time limit, answered beyond kLongestAnswer, or wrote before it was asked: it is killed then, and end() says why.
   std::optional<std::string> ask(const std::string& line);
   /// After an ask() without an answer.
   const ProgramEnd& end() const { return end_; }

@@ -53,6 +53,10 @@ struct Ending {
 Ending ending_of(const ProgramEnd& end, std::chrono::milliseconds limit) {
   if (end.start_error != 0) return {fmt::format("cannot be started: {}", std::strerror(end.start_error))};
   if (end.spoke) return {"answered before it was asked, and was killed"};
+  if (end.rambled) {
+    return {fmt::format("answered with more than {} bytes, where ok, unsupported REASON or failed REASON was expected",
+                        kLongestAnswer)};
+  }
   if (end.hung) return {fmt::format("took longer than {} and was killed", std::chrono::duration<double>(limit))};
   if (WIFSIGNALED(end.status) && WTERMSIG(end.status) == SIGXFSZ) {
     return {"was killed: it wrote a file, or to stderr, beyond the limit of a capture"};
