@@ -33,7 +33,7 @@ void values_of(const pipeline::DrawInput& input, const pipeline::Polygon& polygo
 
 template <std::size_t... corners>
 constexpr Fault in_order(std::string_view name, std::string_view changes) {
-  return {name, changes, Stage::window, put<&pipeline::Stages::window, values_of<corners...>>};
+  return stage_fault(name, changes, put<&pipeline::Stages::window, values_of<corners...>>);
 }
 
 constexpr std::array kCornerValues = {

@@ -142,12 +142,12 @@ pipeline::Shaded unnormalised_normals(const pipeline::Surface& surface, bool fro
 
 template <auto change>
 constexpr Fault of(std::string_view name, std::string_view what, std::string_view report = {}) {
-  return {name, what, Stage::light, put<&Stages::light, lit_otherwise<change>>, report};
+  return stage_fault(name, what, put<&Stages::light, lit_otherwise<change>>, report);
 }
 
 template <auto change>
 constexpr Fault per_fragment(std::string_view name, std::string_view what) {
-  return {name, what, Stage::shade, put<&Stages::shade, shaded_in_other_light<change>>};
+  return stage_fault(name, what, put<&Stages::shade, shaded_in_other_light<change>>);
 }
 
 constexpr std::array kFaults = {
@@ -162,10 +162,10 @@ constexpr std::array kFaults = {
     of<kFarViewer>("light.far_viewer", "highlights are seen from infinitely far away, not from the eye"),
     of<kNoColorMaterial>("light.no_color_material", "vertex colours do not stand for the material"),
     of<kAmbientPerLight>("light.ambient_per_light", "the ambient light is added once more for each light"),
-    Fault{"light.back_color_of_front", "back faces are lit by their front's normal and material", Stage::light,
-          put<&Stages::light, back_color_is_the_fronts>},
-    Fault{"light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated", Stage::light,
-          put<&Stages::light, positions_by_distance>},
+    stage_fault("light.back_color_of_front", "back faces are lit by their front's normal and material",
+                put<&Stages::light, back_color_is_the_fronts>),
+    stage_fault("light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated",
+                put<&Stages::light, positions_by_distance>),
     per_fragment<kWorldSpace>("shade.world_space", "light per fragment: lights are not brought to eye space"),
     per_fragment<kNoAttenuation>("shade.no_attenuation", "light per fragment: lights do not fade with their distance"),
     per_fragment<kSpotDegreesForRadians>("shade.cutoff_in_degrees",
@@ -180,10 +180,9 @@ constexpr std::array kFaults = {
                              "light per fragment: highlights are seen from infinitely far away, not from the eye"),
     per_fragment<kAmbientPerLight>("shade.ambient_per_light",
                                    "light per fragment: the ambient light is added once more for each light"),
-    Fault{"shade.no_color_sum", "the separate specular colour is not added", Stage::shade,
-          put<&Stages::shade, no_color_sum>},
-    Fault{"shade.not_renormalised", "interpolated normals are not brought back to unit length", Stage::shade,
-          put<&Stages::shade, unnormalised_normals>},
+    stage_fault("shade.no_color_sum", "the separate specular colour is not added", put<&Stages::shade, no_color_sum>),
+    stage_fault("shade.not_renormalised", "interpolated normals are not brought back to unit length",
+                put<&Stages::shade, unnormalised_normals>),
 };
 
 }  // namespace

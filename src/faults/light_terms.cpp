@@ -182,11 +182,11 @@ constexpr auto kNoChange = [](LitPoint&, const LightModel&) {};
 
 template <auto change>
 constexpr Fault term_at_vertices(std::string_view name, std::string_view what) {
-  return {name, what, Stage::light, put<&Stages::light, at_vertices<change>>};
+  return stage_fault(name, what, put<&Stages::light, at_vertices<change>>);
 }
 template <auto change>
 constexpr Fault term_per_fragment(std::string_view name, std::string_view what) {
-  return {name, what, Stage::shade, put<&Stages::shade, at_fragments<change>>};
+  return stage_fault(name, what, put<&Stages::shade, at_fragments<change>>);
 }
 
 constexpr std::array kTerms = {
@@ -207,8 +207,8 @@ constexpr std::array kTerms = {
     term_at_vertices<kShineByCosine>("light.highlight_by_n_l", "highlights are multiplied by N.L"),
     term_at_vertices<kHalfLambert>("light.half_lambert", "diffuse light is by (N.L + 1) / 2, which no side is without"),
     term_at_vertices<kSpecularFromBehind>("light.specular_from_behind", "highlights shine where N.L <= 0"),
-    Fault{"light.not_clamped", "lit colours beyond 1 are interpolated, and clamped at the fragments", Stage::light,
-          put<&Stages::light, at_vertices<kNoChange, false>>},
+    stage_fault("light.not_clamped", "lit colours beyond 1 are interpolated, and clamped at the fragments",
+                put<&Stages::light, at_vertices<kNoChange, false>>),
     term_per_fragment<kAbsoluteCosine>("shade.n_l_absolute",
                                        "light per fragment: |N.L| for max(N.L, 0): surfaces are lit from behind"),
     term_per_fragment<kLongVector>("shade.l_not_normalised",

@@ -222,53 +222,52 @@ void edges_of_one_corner(const DrawInput& input, const Polygon& polygon, Triangl
   }
 }
 
-template <auto function>
-constexpr Fault of_clip(std::string_view name, std::string_view changes, std::string_view report = {}) {
-  return {name, changes, Stage::clip, put<&Stages::clip, function>, report};
-}
-template <auto function>
-constexpr Fault of_window(std::string_view name, std::string_view changes, std::string_view report = {}) {
-  return {name, changes, Stage::window, put<&Stages::window, function>, report};
-}
-
 constexpr std::array kPolygons = {
-    of_clip<cut_at<kNoNear>>("clip.no_near_plane", "nothing is cut at the near plane"),
-    of_clip<cut_at<kNoFar>>("clip.no_far_plane", "nothing is cut at the far plane"),
-    of_clip<cut_at<kNearAtZero>>("clip.near_at_zero", "the near plane lies at z = 0, where another library has it",
-                                 "jdahlstrom/retrofire#3"),
-    of_clip<clip_moved<kNearFlattened>>(
-        "clip.near_flattened", "what is before the near plane is moved onto it, not cut", "Vita3K/Vita3K#4110"),
-    of_clip<clip_moved<kWSignLost>>("clip.w_sign_lost",
-                                    "what is behind the eye is taken for its mirror image before it"),
-    of_clip<left_out_after_division>("clip.left_out_after_division",
-                                     "triangles are left out by x/w and y/w, behind the eye too", "vindar/tgx#47"),
-    of_clip<culled_before_clip>("clip.culled_before_cut", "faces are culled by x/w and y/w, behind the eye too"),
-    Fault{"clip.first_vertex_provokes", "flat triangles have their first corner's colour", Stage::clip,
-          put<&Stages::assemble, first_provokes>, "flyinghead/flycast#1681"},
-    of_clip<clip_changed<kAttributesNotCut>>("clip.attributes_not_cut",
-                                             "a cut's corner has the attributes of the corner before it",
-                                             "Victormeriqui/Consol3#20"),
-    of_clip<clip_changed<kCornerLost>>("clip.corner_lost", "a cut polygon loses its last corner"),
-    of_clip<clip_changed<kReversed>>("clip.winding_reversed", "cut polygons run the other way round"),
-    of_window<window_under<kModeOfOtherFace>>(
-        "window.mode_of_other_face", "front faces are drawn in the back faces' polygon mode, and back faces in theirs"),
-    of_window<window_under<kOtherSideCulled>>("window.other_side_culled", "front faces are culled for back faces"),
-    of_window<window_under<kCulledByModel>>("window.culled_by_model", "a mirrored model's other faces are culled",
-                                            "antverdovsky/Honeycomb-Game-Engine#2"),
-    of_window<window_under<kRowsFromAbove>>("window.y_flipped", "y runs downwards"),
-    of_window<snapped_otherwise<kTruncated>>("window.snap_truncates",
-                                             "window positions are truncated to 1/256 pixel, not rounded"),
-    of_window<snapped_otherwise<kWholeRows>>(
-        "window.whole_rows", "corners' y are rounded to whole pixels, their x are not", "gonetz/GLideN64#1731"),
-    of_window<in_whole_pixels<false>>("window.whole_pixels", "corners are truncated to whole pixels"),
-    of_window<in_whole_pixels<true>>("window.whole_centres", "corners are moved down to pixels' centres"),
-    of_window<snapped_otherwise<kHalfAPixelOff>>("window.half_pixel_off",
-                                                 "corners lie half a pixel too far right and up"),
-    of_window<facing_turned>("window.facing_turned", "triangles whose corners are clockwise are front faces"),
-    of_window<z_not_divided>("window.z_not_divided", "window z is not divided by w"),
-    of_window<diagonals_drawn>("window.diagonals_drawn",
-                               "the edges of a cut triangle's fan are drawn, not those of its polygon"),
-    of_window<edges_of_one_corner>("window.edges_of_one_corner", "an edge begins at the corner that it ends in"),
+    stage_fault("clip.no_near_plane", "nothing is cut at the near plane", put<&Stages::clip, cut_at<kNoNear>>),
+    stage_fault("clip.no_far_plane", "nothing is cut at the far plane", put<&Stages::clip, cut_at<kNoFar>>),
+    stage_fault("clip.near_at_zero", "the near plane lies at z = 0, where another library has it",
+                put<&Stages::clip, cut_at<kNearAtZero>>, "jdahlstrom/retrofire#3"),
+    stage_fault("clip.near_flattened", "what is before the near plane is moved onto it, not cut",
+                put<&Stages::clip, clip_moved<kNearFlattened>>, "Vita3K/Vita3K#4110"),
+    stage_fault("clip.w_sign_lost", "what is behind the eye is taken for its mirror image before it",
+                put<&Stages::clip, clip_moved<kWSignLost>>),
+    stage_fault("clip.left_out_after_division", "triangles are left out by x/w and y/w, behind the eye too",
+                put<&Stages::clip, left_out_after_division>, "vindar/tgx#47"),
+    stage_fault("clip.culled_before_cut", "faces are culled by x/w and y/w, behind the eye too",
+                put<&Stages::clip, culled_before_clip>),
+    stage_fault("clip.first_vertex_provokes", "flat triangles have their first corner's colour",
+                put<&Stages::assemble, first_provokes>, "flyinghead/flycast#1681"),
+    stage_fault("clip.attributes_not_cut", "a cut's corner has the attributes of the corner before it",
+                put<&Stages::clip, clip_changed<kAttributesNotCut>>, "Victormeriqui/Consol3#20"),
+    stage_fault("clip.corner_lost", "a cut polygon loses its last corner",
+                put<&Stages::clip, clip_changed<kCornerLost>>),
+    stage_fault("clip.winding_reversed", "cut polygons run the other way round",
+                put<&Stages::clip, clip_changed<kReversed>>),
+    stage_fault("window.mode_of_other_face",
+                "front faces are drawn in the back faces' polygon mode, and back faces in theirs",
+                put<&Stages::window, window_under<kModeOfOtherFace>>),
+    stage_fault("window.other_side_culled", "front faces are culled for back faces",
+                put<&Stages::window, window_under<kOtherSideCulled>>),
+    stage_fault("window.culled_by_model", "a mirrored model's other faces are culled",
+                put<&Stages::window, window_under<kCulledByModel>>, "antverdovsky/Honeycomb-Game-Engine#2"),
+    stage_fault("window.y_flipped", "y runs downwards", put<&Stages::window, window_under<kRowsFromAbove>>),
+    stage_fault("window.snap_truncates", "window positions are truncated to 1/256 pixel, not rounded",
+                put<&Stages::window, snapped_otherwise<kTruncated>>),
+    stage_fault("window.whole_rows", "corners' y are rounded to whole pixels, their x are not",
+                put<&Stages::window, snapped_otherwise<kWholeRows>>, "gonetz/GLideN64#1731"),
+    stage_fault("window.whole_pixels", "corners are truncated to whole pixels",
+                put<&Stages::window, in_whole_pixels<false>>),
+    stage_fault("window.whole_centres", "corners are moved down to pixels' centres",
+                put<&Stages::window, in_whole_pixels<true>>),
+    stage_fault("window.half_pixel_off", "corners lie half a pixel too far right and up",
+                put<&Stages::window, snapped_otherwise<kHalfAPixelOff>>),
+    stage_fault("window.facing_turned", "triangles whose corners are clockwise are front faces",
+                put<&Stages::window, facing_turned>),
+    stage_fault("window.z_not_divided", "window z is not divided by w", put<&Stages::window, z_not_divided>),
+    stage_fault("window.diagonals_drawn", "the edges of a cut triangle's fan are drawn, not those of its polygon",
+                put<&Stages::window, diagonals_drawn>),
+    stage_fault("window.edges_of_one_corner", "an edge begins at the corner that it ends in",
+                put<&Stages::window, edges_of_one_corner>),
 };
 
 }  // namespace

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
+#include <string_view>
 #include <vector>
 
+#include "faults/fault.h"
 #include "faults/pixel_barycentrics.h"
 #include "kernels/coverage.h"
 #include "pipeline/geometry.h"
@@ -28,6 +31,15 @@ void put(Stages& stages) {
   } else {
     stages.resolve.*member = function;
   }
+}
+
+/// A fault of the stage whose name its own begins with: "coverage.inclusive_edges".
+constexpr Fault stage_fault(std::string_view name, std::string_view changes, void (*apply)(Stages&),
+                            std::string_view report = {}) {
+  for (const Stage stage : kAllStages) {
+    if (name.substr(0, name.find('.')) == name_of(stage)) return {name, changes, stage, apply, report};
+  }
+  throw std::logic_error("the fault's name begins with no stage");
 }
 
 /// Coverage by another tie rule: owns(step_x, step_y): pixels on an edge are in. (step_x, step_y), the edge function's

@@ -153,60 +153,55 @@ constexpr auto kEyePositionOfModel = [](const Matrices<float>&, const glm::vec3&
 
 constexpr auto kWIsOne = [](const Matrices<float>&, const glm::vec3&, Vertex<float>& v) { v.p_clip.w = 1; };
 
-template <auto function>
-constexpr Fault of_matrices(std::string_view name, std::string_view changes, std::string_view report = {}) {
-  return {name, changes, Stage::matrices, put<&Stages::matrices, function>, report};
-}
-template <auto function>
-constexpr Fault of_vertex(std::string_view name, std::string_view changes, std::string_view report = {}) {
-  return {name, changes, Stage::vertex, put<&Stages::vertex, function>, report};
-}
-
 constexpr std::array kVertices = {
-    of_matrices<matrices_changed<kFovHorizontal>>("matrices.fov_horizontal",
-                                                  "the vertical field of view is taken for the horizontal one"),
-    of_matrices<matrices_changed<kFovTimesNear>>(
-        "matrices.fov_times_near", "half the field of view is multiplied by near within the tangent, not beside it"),
-    of_matrices<matrices_changed<kAspectInverted>>("matrices.aspect_inverted",
-                                                   "the aspect ratio is taken for height over width"),
-    of_matrices<matrices_changed<kAspectOfOne>>("matrices.aspect_of_one", "every picture is taken to be square"),
-    of_matrices<matrices_changed<kAspectOf4To3>>("matrices.aspect_of_4_to_3", "every picture is taken to be 4 to 3",
-                                                 "avaraline/Avara#69"),
-    of_matrices<matrices_changed<kNearFarSwapped>>("matrices.near_far_swapped",
-                                                   "the near plane is taken for the far one"),
-    of_matrices<matrices_changed<kClipFromZero>>(
-        "matrices.clip_z_from_zero", "the projection is that of a library whose view volume is 0 <= z <= w"),
-    of_matrices<matrices_changed<kDepthRangeNotMapped>>("matrices.depth_range_not_mapped",
-                                                        "every draw's depths fill [0,1], whatever its depth range"),
-    of_matrices<matrices_changed<kViewportOneShort>>(
-        "matrices.viewport_one_short",
-        "the viewport is a pixel too narrow and too low: its sides are taken for centres"),
-    of_matrices<matrices_changed<kViewportByWidthLessOne>>(
-        "matrices.viewport_by_width_less_one",
-        "the viewport is a pixel less wide and high: its left lower corner is right"),
-    of_matrices<matrices_changed<kViewportLessOneFromTop>>(
-        "matrices.viewport_less_one_from_top",
-        "the viewport is a pixel less wide and high: its left upper corner is right"),
-    of_matrices<matrices_changed<kNormalsByInverse>>("matrices.normals_by_inverse",
-                                                     "the normals' matrix is the inverse, not transposed"),
-    of_matrices<matrices_of_other<kTransformsReversed>>(
-        "matrices.transforms_reversed", "a draw's transforms are multiplied in the other order", "glob3mobile/g3m#197"),
-    of_matrices<matrices_of_other<kClockwise>>("matrices.rotation_sign", "rotations turn clockwise"),
-    of_matrices<matrices_of_other<kDegreesForRadians>>("matrices.degrees_for_radians",
-                                                       "a rotation's degrees are taken for radians"),
-    Fault{"matrices.view_upside_down", "the camera's up is taken for down, and lights go by that view too",
-          Stage::matrices, wrong_view},
-    of_vertex<normals_by_other<kModelView>>("vertex.normals_by_model_view",
-                                            "normals go by the model-view matrix, not its inverse transpose"),
-    of_vertex<normals_by_other<kNotTurned>>("vertex.normals_not_turned", "normals are not turned with the model",
-                                            "thunder-engine/thunder#61"),
-    of_vertex<normals_not_renormalised>("vertex.not_renormalised",
-                                        "normals are not brought to unit length after the model's scale"),
-    of_vertex<vertices_changed<kNormalsTranslated>>("vertex.normals_translated", "normals are moved with the model",
-                                                    "KhronosGroup/glTF-Sample-Viewer#41"),
-    of_vertex<vertices_changed<kEyePositionOfModel>>("vertex.eye_position_of_model",
-                                                     "the place that is lit is that in model space"),
-    of_vertex<vertices_changed<kWIsOne>>("vertex.w_is_one", "w of the clip position is left at 1"),
+    stage_fault("matrices.fov_horizontal", "the vertical field of view is taken for the horizontal one",
+                put<&Stages::matrices, matrices_changed<kFovHorizontal>>),
+    stage_fault("matrices.fov_times_near",
+                "half the field of view is multiplied by near within the tangent, not beside it",
+                put<&Stages::matrices, matrices_changed<kFovTimesNear>>),
+    stage_fault("matrices.aspect_inverted", "the aspect ratio is taken for height over width",
+                put<&Stages::matrices, matrices_changed<kAspectInverted>>),
+    stage_fault("matrices.aspect_of_one", "every picture is taken to be square",
+                put<&Stages::matrices, matrices_changed<kAspectOfOne>>),
+    stage_fault("matrices.aspect_of_4_to_3", "every picture is taken to be 4 to 3",
+                put<&Stages::matrices, matrices_changed<kAspectOf4To3>>, "avaraline/Avara#69"),
+    stage_fault("matrices.near_far_swapped", "the near plane is taken for the far one",
+                put<&Stages::matrices, matrices_changed<kNearFarSwapped>>),
+    stage_fault("matrices.clip_z_from_zero", "the projection is that of a library whose view volume is 0 <= z <= w",
+                put<&Stages::matrices, matrices_changed<kClipFromZero>>),
+    stage_fault("matrices.depth_range_not_mapped", "every draw's depths fill [0,1], whatever its depth range",
+                put<&Stages::matrices, matrices_changed<kDepthRangeNotMapped>>),
+    stage_fault("matrices.viewport_one_short",
+                "the viewport is a pixel too narrow and too low: its sides are taken for centres",
+                put<&Stages::matrices, matrices_changed<kViewportOneShort>>),
+    stage_fault("matrices.viewport_by_width_less_one",
+                "the viewport is a pixel less wide and high: its left lower corner is right",
+                put<&Stages::matrices, matrices_changed<kViewportByWidthLessOne>>),
+    stage_fault("matrices.viewport_less_one_from_top",
+                "the viewport is a pixel less wide and high: its left upper corner is right",
+                put<&Stages::matrices, matrices_changed<kViewportLessOneFromTop>>),
+    stage_fault("matrices.normals_by_inverse", "the normals' matrix is the inverse, not transposed",
+                put<&Stages::matrices, matrices_changed<kNormalsByInverse>>),
+    stage_fault("matrices.transforms_reversed", "a draw's transforms are multiplied in the other order",
+                put<&Stages::matrices, matrices_of_other<kTransformsReversed>>, "glob3mobile/g3m#197"),
+    stage_fault("matrices.rotation_sign", "rotations turn clockwise",
+                put<&Stages::matrices, matrices_of_other<kClockwise>>),
+    stage_fault("matrices.degrees_for_radians", "a rotation's degrees are taken for radians",
+                put<&Stages::matrices, matrices_of_other<kDegreesForRadians>>),
+    stage_fault("matrices.view_upside_down", "the camera's up is taken for down, and lights go by that view too",
+                wrong_view),
+    stage_fault("vertex.normals_by_model_view", "normals go by the model-view matrix, not its inverse transpose",
+                put<&Stages::vertex, normals_by_other<kModelView>>),
+    stage_fault("vertex.normals_not_turned", "normals are not turned with the model",
+                put<&Stages::vertex, normals_by_other<kNotTurned>>, "thunder-engine/thunder#61"),
+    stage_fault("vertex.not_renormalised", "normals are not brought to unit length after the model's scale",
+                put<&Stages::vertex, normals_not_renormalised>),
+    stage_fault("vertex.normals_translated", "normals are moved with the model",
+                put<&Stages::vertex, vertices_changed<kNormalsTranslated>>, "KhronosGroup/glTF-Sample-Viewer#41"),
+    stage_fault("vertex.eye_position_of_model", "the place that is lit is that in model space",
+                put<&Stages::vertex, vertices_changed<kEyePositionOfModel>>),
+    stage_fault("vertex.w_is_one", "w of the clip position is left at 1",
+                put<&Stages::vertex, vertices_changed<kWIsOne>>),
 };
 
 }  // namespace
