@@ -1,5 +1,5 @@
-// Renderers that end the process, never end, take all memory or throw, for tests that other rows survive. No fault list
-// has them.
+// Renderers that end the process, hang, take all memory or throw: tests require that all other rows are judged. No
+// list of faults holds these renderers.
 #pragma once
 
 #include <memory>

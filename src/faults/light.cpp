@@ -32,7 +32,7 @@ constexpr auto kNoAttenuation = [](Scene& scene, Draw&) {
   for (Light& light : scene.lights) light.attenuation = {1, 0, 0};
 };
 
-// cos() of the degrees themselves; a negative cosine makes the cone more than a half space.
+// Cutoff whose cosine is cos() of the number of degrees; where that is negative, the cone is more than a half space.
 constexpr auto kSpotDegreesForRadians = [](Scene& scene, Draw&) {
   for (Light& light : scene.lights) {
     if (light.spot) light.spot->cutoff_degrees = glm::degrees(std::acos(std::cos(light.spot->cutoff_degrees)));

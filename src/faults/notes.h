@@ -2,8 +2,8 @@
 // (no fault), 002 TinyRenderer, 004 the class notes of CSCI 580. A mistake that is right by the conventions of its own
 // dialect changes nothing there.
 //
-// Mistakes that no picture shows, and that have no fault: the midpoint's b/2 (004, section 2.2), no integer; loops to
-// x = xs (000), which leave the frame.
+// Mistakes without a fault, because no picture shows them: the midpoint's b/2, which is no integer (004, section 2.2);
+// loops up to x = xs, which leave the frame (000).
 #pragma once
 
 #include <span>

@@ -105,7 +105,7 @@ double y_of_corner(const Setup& s, const Pixels<float>& p, std::size_t corner) {
 
 Pixels<float> moved(const Pixels<float>& p, double x, double y) { return {p.x, p.y, p.x_win + x, p.y_win + y}; }
 
-// Place whose values a pixel has where spans begin with those of their end.
+// Place whose values a pixel has if the first pixel of a span has the values of the span's left end.
 Pixels<float> span_not_advanced(const Setup& s, const Pixels<float>& p) {
   const Span span = span_of(s, p);
   return span.edge < 3 ? moved(p, -ahead_of(span.begin), 0) : p;
@@ -117,7 +117,7 @@ Pixels<float> first_of_span(const Setup& s, const Pixels<float>& p) {
   return span.edge < 3 ? moved(p, span.begin + ahead_of(span.begin) - p.x_win, 0) : p;
 }
 
-// Place whose values a pixel has where edges begin with those of their lower, or upper, corner.
+// Place whose values a pixel has if the first row of an edge has the values of the edge's lower, or upper, corner.
 template <From from>
 Pixels<float> edge_not_advanced(const Setup& s, const Pixels<float>& p) {
   const Span span = span_of(s, p);

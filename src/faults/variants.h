@@ -42,8 +42,8 @@ constexpr Fault stage_fault(std::string_view name, std::string_view changes, voi
   throw std::logic_error("the fault's name begins with no stage");
 }
 
-/// Coverage by another tie rule: owns(step_x, step_y): pixels on an edge are in. (step_x, step_y), the edge function's
-/// steps, points into the triangle.
+/// Coverage by another tie rule. owns(step_x, step_y): whether the triangle has the pixels on an edge whose function
+/// has these steps. The vector (step_x, step_y) points into the triangle.
 template <bool (*owns)(std::int64_t, std::int64_t)>
 PixelList tied(const Triangle& triangle, const PixelBounds& box) {
   if (triangle.corners != 3) return pipeline::covered_pixels(triangle, box);
@@ -63,7 +63,7 @@ inline Color<float> affine_attributes(const Setup& s, const pipeline::AttributeS
   return pipeline::mean<float>(of, pipeline::weights<float>(none, pipeline::from_anchor<float>(s.planes, p)));
 }
 
-/// Window z at a pass' sample less window z where its colours are taken.
+/// Difference of window z at a pass' sample from window z where the pass takes colours.
 inline double z_of_sample(const Setup& s) {
   const double there = pipeline::depth_plane(s.depth, s.planes).code.at_0;
   return (s.depth_plane.code.at_0 - there) / (s.depth.scale == 0 ? 1 : s.depth.scale);

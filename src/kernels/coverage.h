@@ -72,7 +72,7 @@ void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin,
   }
   const glm::i64vec2 d = glm::abs(b - a);
   const int minor = d.x >= d.y ? 1 : 0;
-  // The line is walked width - 1 pixels higher, in a box that much taller: pixels below the box are walked, too.
+  // Walk the line width - 1 pixels higher, in a box width - 1 pixels taller, to visit pixels below the box, too.
   glm::i64vec2 moved(0);
   moved[minor] = kSubpixel * (width - 1) - kSubpixel / 2 * (width - 1);
   glm::ivec2 box = size;

@@ -72,7 +72,7 @@ Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, 
 }
 
 /// diffuse: max(N.L, 0), and 0 where Sides::flip excludes the light. specular: max(N.H, 0) or max(R.E, 0), the base of
-/// the shininess power; it counts only where diffuse is above 0.
+/// the shininess power, which counts only where diffuse is above 0.
 template <class R>
 struct Cosines {
   R diffuse, specular;
@@ -121,8 +121,8 @@ R reach(const EyeLight& light, const Vec3<R>& from_point, const Vec3<R>& to_ligh
 }
 
 /// Lit colour of a point: rgba clamped to [0,1], alpha the diffuse material's. Where the normal faces away from a
-/// light, the light's diffuse and specular terms are 0; outside its cone, so is its ambient term. `n_eye` is used as it
-/// is, of any length. `T`: float where all lanes have one material, else R.
+/// light, the light's diffuse and specular terms are 0; outside its cone, so is its ambient term. `n_eye` may have any
+/// length, and is not normalised. `T`: float where all lanes have one material, else R.
 template <class R, class T>
 Color<R> lit(const Illumination& illumination, const Reflectance<T>& reflectance, const Vec3<R>& p_eye,
              const Vec3<R>& n_eye) {

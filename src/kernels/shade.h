@@ -37,8 +37,9 @@ inline Surface surface_of(const Scene& scene, const Draw& draw, Lights lights) {
   return surface;
 }
 
-/// Input of stage 9: a fragment's attributes and texel. The definition sets to 0 what is never read, the painter leaves
-/// it unset: varyings that the surface does not carry, the texel of a surface without a texture, every texel's lod.
+/// Input of stage 9: a fragment's attributes and texel. Never read are varyings that the surface does not carry, the
+/// texel of a surface without a texture, and any texel's lod: the definition sets these to 0, the painter leaves these
+/// unset.
 template <class R>
 struct SurfaceAttributes {
   Color<R> color;

@@ -19,13 +19,13 @@ struct WindowVertex {
 struct WindowTriangle {
   std::array<WindowVertex, 3> v;
   std::uint32_t primitive = 0;
-  bool front = true;          ///< facing; of an outline its polygon's, of a mesh's line or point true
+  bool front = true;          ///< facing: of an outline, the polygon's; of a mesh's line or point, true
   std::uint32_t corners = 3;  ///< of a line 2, of a point 1
   std::uint32_t width = 1;    ///< line width, or side of a point's square [pixels]
 };
 
 /// Snapped coordinate (win - 1/2) * 256, half to even, for |win| <= 2^20. The difference is exact in double for |win|
-/// >= 2^-31, and nearer to 0 no result is half way; adding 1.5 * 2^52 rounds half to even.
+/// >= 2^-30, and no smaller |win| leads half way between two integers; adding 1.5 * 2^52 rounds half to even.
 inline int snap(float win) {
   constexpr double kRound = 6755399441055744.0;
   return static_cast<int>(((static_cast<double>(win) - 0.5) * kSubpixel + kRound) - kRound);

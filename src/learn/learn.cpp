@@ -58,7 +58,7 @@ void learn_rows_by_any(Prober& prober) {
   }
 }
 
-// Leaves the conventions open that the probe has not found.
+// Opens those of the probe's conventions that have no row yet.
 void leave_open(Prober& prober, const Probe& probe, const std::string& why) {
   const std::vector<LearnedRow>& rows = prober.learned.rows;
   for (const std::string_view name : probe.names) {

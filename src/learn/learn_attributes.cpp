@@ -36,7 +36,7 @@ Shares shares_at(int x, const C& conventions) {
   const double s = (x + conventions.sample.x) / kFrameSize;
   return {s, (s / 16) / ((1 - s) / 2 + s / 16)};
 }
-// Whether the colour at column x is this grey, to 2 codes and 0.3 of a column.
+// True: the colour at column x is `grey`, to within 2 codes plus the change of a ramp over 0.3 column.
 bool is_grey(const Plane<glm::vec4>& color, int x, double grey) {
   constexpr double kMost = 2.0 / 255 + 0.3 / kFrameSize;
   const glm::dvec3 off = glm::abs(glm::dvec3(color(x, kFrameSize / 2)) - grey);
@@ -79,7 +79,7 @@ void learn_clipping(Prober& prober) {
   // At depths of -0.5 and -0.25.
   const bool is_clamped = near_cut || left.depth.empty() ||
                           std::abs(left.depth(0, kFrameSize / 2) - left.depth(kFrameSize / 8, kFrameSize / 2)) < 1e-3;
-  // Pixels at depths 0.25 and 0.75 differ, unless the triangle has one depth, which is not clamped.
+  // False: pixels at depths 0.25 and 0.75 are left alike, as by a renderer with one depth for the whole rectangle.
   const bool varies =
       near_cut || left.depth.empty() ||
       std::abs(left.depth(3 * kFrameSize / 8, kFrameSize / 2) - left.depth(5 * kFrameSize / 8, kFrameSize / 2)) > 0.4;

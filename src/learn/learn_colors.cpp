@@ -47,7 +47,7 @@ glm::vec4 between_codes(int i) {
   return {(code + above(0)) / 255, (code + above(1)) / 255, (code + above(2)) / 255, 1};
 }
 
-// The encoding and rounding that explain most colours, where channel k of those given is left in channel order[k].
+// Encoding and rounding that explain most colours. The renderer leaves channel k of the given colours in order[k].
 struct Fit {
   std::size_t most = 0;
   C::Encoding encoding = C::Encoding::linear;
@@ -81,7 +81,7 @@ Fit best_fit(const Plane<glm::vec4>& color) {
   return best;
 }
 
-// Explanation of colours by another way to make codes that people know; empty: it is none of these.
+// Name of a well-known wrong way to make codes that explains the colours; empty: none does.
 std::string said_of_other_codes(const Plane<glm::vec4>& color) {
   const std::pair<const char*, double (*)(double)> kRules[] = {
       {"256 c, truncated, and at most 255", [](double c) { return std::min(255.0, std::floor(256 * c)); }},

@@ -18,8 +18,8 @@ using C = Conventions;
 constexpr int kRamps = 16, kPeriod = 4;       // ramps are two pixels wide, one begins every kPeriod pixels
 constexpr double kFirst = 0.2, kRise = 0.25;  // depth at a ramp's beginning; its rise in a pixel
 
-// Distance of a ramp's beginning from its snapped position [pixel]: just under half a step, or a whole one by roundings
-// down and up.
+// Distance of a ramp's beginning from its snapped position [pixels]: just under half a step of the grid (rounding to
+// the nearest) or a whole step (rounding down or up).
 double off_grid(const C& c) {
   const double share = c.subpixel_rounding == C::Rounding::down ? 0.98
                        : c.subpixel_rounding == C::Rounding::up ? -0.98

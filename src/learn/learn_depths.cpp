@@ -58,8 +58,8 @@ std::size_t fitting(C::DepthRange range, const std::vector<double>& given, const
 
 constexpr std::array kRoundings = {C::Rounding::nearest, C::Rounding::down, C::Rounding::up};
 
-// Multiples of 2^-16, below 1/4 and above 3/5: the nearest code of n bits is the upper one in the first half, the lower
-// one in the second, for z (2^n - 1) lies z below a whole number.
+// Multiples of 2^-16: 128 below 1/4, then 128 above 3/5. z (2^n - 1) lies z below a whole number, so that the nearest
+// code of n bits, n = 16 or 24, is the upper one of the first 128, and the lower one of the others.
 std::vector<double> given_depths() {
   std::vector<double> out;
   for (int i = 0; i < 128; ++i) out.push_back((2000 + 97 * i) / 65536.0);
@@ -270,7 +270,7 @@ std::vector<SlopedTriangle> small_and_far(int grid_bits) {
   return out;
 }
 
-// The format of depths that a frame of 24 bits is left in.
+// Format in which the renderer leaves the depths of a 24-bit frame.
 DepthFormat format_of_24(C::Depth format) {
   return format == C::Depth::z16 ? DepthFormat::z16 : format == C::Depth::z32f ? DepthFormat::z32f : DepthFormat::z24;
 }

@@ -181,8 +181,8 @@ glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
   return {first(in_column), first(in_row)};
 }
 
-// Edges give a sample's position but for whole pixels: a sample at a pixel's lower or left border may be at the upper
-// or right one of its neighbour.
+// Moves a sample from a pixel's lower or left border to the opposite one where the picture is shifted by -1 pixel:
+// edges give a sample's position modulo one pixel.
 void take_far_border(double& sample, double& shift) {
   if (sample == 0 && shift == -1) sample = 1, shift = 0;
 }

@@ -21,7 +21,7 @@ using C = Conventions;
 
 constexpr int kMostWeightBits = 12;  // finer weights differ from float's by less than the colours' rounding
 
-// Picture of a texture on which no wrap mode acts, draw(texture). A renderer may lack any mode: repeat stands for one.
+// Picture draw(texture) of a texture on which no wrap mode acts, by the mode repeat where its own is unsupported.
 Plane<glm::vec4> drawn_by_either_wrap(Texture texture, auto draw) {
   try {
     return draw(texture);
@@ -31,8 +31,8 @@ Plane<glm::vec4> drawn_by_either_wrap(Texture texture, auto draw) {
   }
 }
 
-// Share of a texture between its first and last texel's centre, where no wrap mode acts.
-// Weights there are multiples of 2^-13, which no fewer bits hold.
+// Share that a frame shows of the distance from the first texel's centre to the last one's, where no wrap mode acts. A
+// filter's weights there are odd multiples of 2^-13, which fewer than 13 bits do not hold.
 constexpr float kMiddle = 61.0f / 64;
 Plane<glm::vec4> middle_of(Prober& prober, const std::string& name, Texture texture) {
   const float side = 1 / static_cast<float>(texture.levels[0].width), least = side / 2;
@@ -44,7 +44,7 @@ Plane<glm::vec4> middle_of(Prober& prober, const std::string& name, Texture text
 // Texels from the first one's centre, of `size` in a row, at a pixel of middle_of().
 double texels_at(double pixel, int size) { return (size - 1) * static_cast<double>(kMiddle) * pixel / kTexturedSize; }
 
-// Errors of the weights between a black texel and a white one, at each column, those of colours in codes included.
+// Errors of a filter's weights between a black and a white texel over all columns, the rounding to codes included.
 struct WeightErrors {
   double least = std::numeric_limits<double>::infinity(), most = -least, mean = 0;
   std::set<long> codes;  // that are drawn
@@ -68,7 +68,7 @@ WeightErrors weight_errors(Prober& prober) {
 
 constexpr double kCode = 1.0 / 255;
 
-// Fraction bits of a step that the weights' largest error does not exceed, beyond the colours' rounding.
+// Fraction bits of the finest step that is at least the weights' largest error less the colours' rounding.
 int bits_of(const WeightErrors& errors, C::Rounding of_colors) {
   const double below = of_colors == C::Rounding::nearest ? kCode / 2 : of_colors == C::Rounding::down ? kCode : 0;
   const double largest = std::max(-errors.least - below, errors.most - (kCode - below));
@@ -126,7 +126,7 @@ double texels_off(Prober& prober, const std::string& name, int texels, auto code
 // Texture of 4 x 4 unlike codes.
 int unlike_code(int x, int y) { return (x * 83 + y * 151 + 11) % 256; }
 
-// Errors of means of its texels [codes].
+// Errors of filtered texels of the texture of unlike codes [codes].
 struct MeanErrors {
   double largest = 0, highest = -std::numeric_limits<double>::infinity();
   double step = 0;  // of the coarsest weights that explain each mean

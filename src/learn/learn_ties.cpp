@@ -21,7 +21,7 @@ using C = Conventions;
 constexpr std::array kRules = {C::TieRule::left_bottom, C::TieRule::left_top, C::TieRule::right_bottom,
                                C::TieRule::right_top};
 
-// True: the rule gives samples on an edge to the triangle that lies to its `inward` side.
+// True: the rule gives samples on an edge to a triangle into which the vector `inward` points from that edge.
 bool owns(C::TieRule rule, glm::ivec2 inward) {
   const bool left = rule == C::TieRule::left_bottom || rule == C::TieRule::left_top,
              bottom = rule == C::TieRule::left_bottom || rule == C::TieRule::right_bottom;

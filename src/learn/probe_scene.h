@@ -19,8 +19,8 @@ struct ProbeCorner {
   glm::vec2 texcoord{0};
 };
 
-/// Depth to draw at, in OpenGL's view volume [0,1], so that the found view volume yields `z`. The volume [0,w] in z is
-/// the far half of OpenGL's.
+/// Depth in OpenGL's view volume, [0,1], at which the renderer's view volume yields the depth `z`. The volume [0,w] in
+/// z is the far half of OpenGL's.
 inline double in_volume(const Conventions& conventions, double z) {
   return conventions.clip_depth == Conventions::ClipDepth::zero_to_w ? (1 + z) / 2 : z;
 }

@@ -61,7 +61,7 @@ class Prober {
   Learned learned;
   /// Depth function of all draws of the probes. Where draws lie over each other, the later one is the nearer.
   DepthFunc depth_func = DepthFunc::always;
-  /// Why probes of mixed colours are skipped; empty: colours are linear, or less than 4 codes off.
+  /// Reason to skip probes of mixed colours; empty: colours are linear, or less than 4 codes off.
   std::string not_linear;
   /// The first probe's picture has one colour: no other probe is drawn.
   bool sees_nothing = false;

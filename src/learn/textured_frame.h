@@ -38,7 +38,7 @@ Texture texture_of(int size, auto code) {
   return out;
 }
 
-/// Pixels that may be nobody's: those with samples on a textured frame's diagonal, or on a side of it.
+/// True: a tie rule may leave the pixel uncovered, for its sample lies on a textured frame's diagonal or border.
 inline bool may_be_nobodys(int x, int y, const glm::dvec2& sample) {
   const auto is_on_side = [](int at, double offset) {
     return (at == 0 && offset == 0) || (at == kTexturedSize - 1 && offset == 1);

@@ -10,9 +10,9 @@ namespace plumbline::check {
 /// layer, for colours of at most 1.
 bool factors_read_frame(const Scene& scene);
 
-/// Rounding error of each pixel's colour by blending in float [u]: per layer the error so far, times what the factors
-/// let through, and 4 u of the sum of both terms' absolute values. Colours: `records.shaded`; at most 1 without.
-/// 0 where no fragment is drawn.
+/// Rounding error of each pixel's colour by blending in float [u]: per layer, the error so far times what the factors
+/// let through, plus 4 u of the sum of both terms' absolute values (factors that sum to 1: of both colours'). Source
+/// colours: `records.shaded`; without these, at most 1. 0 where no fragment is drawn.
 Plane<double> blending_roundings(const Scene& scene, const Records<double>& records);
 
 }  // namespace plumbline::check

@@ -207,7 +207,7 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
                          const double step = depth_step(scene.frame.depth, b);
                          double apart = difference(a + middle * step, b) / step;
                          const bool needed = apart > factor && c.triangle < candidate.triangles.size();
-                         if (needed && from_origin > 0) {  // a stranger's
+                         if (needed && from_origin > 0) {  // a foreign candidate's
                            const WindowTriangle<double>& t = candidate.triangles[c.triangle];
                            const auto [low, high] = std::minmax({b, b + offsets.by_length(t), b + offsets.by_grid(t)});
                            apart = distance_outside(a + middle * step, low, high) / step;

@@ -113,7 +113,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
       return one_holds && !holds(a, x, y) ? kInfinite : rule.farthest(c, a);
     };
     const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, distance);
-    // Any colour is legal. (Those of codes are in [0, 1].)
+    // True: any colour is legal. (Colours of frames of codes lie in [0, 1].)
     const bool is_any = rule.stored.scale > 0 ? !(nearest.color_bound < 1) : !std::isfinite(nearest.color_bound);
     if (is_any && legal.at(x, y).size() == 1) meter.ambiguous();
     for (int i = 0; i < 4; ++i) {

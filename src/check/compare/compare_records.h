@@ -67,20 +67,23 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
 /// 1.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
 /// compare_covered() for a candidate whose tie rule or grid is not the dialect's. An extra or missing fragment is
-/// ambiguous within d of an edge of the candidate's triangle, d the sum of the edge's displacements: by snapping to the
-/// declared grid (1/256 pixel: as exact; none: by rounding in float), by exact's snapping to 1/256 pixel, and by
-/// stepping in float where depth_arithmetic declares it. But a sample on an edge that two triangles share
-/// (shared_edges.h), and near none of their other edges, is in exactly one of the two (inclusive: or both; exclusive:
-/// or neither); else it differs. `sample`: sample position [pixels from the pixel's corner of smallest coordinates].
-/// `height`: the frame's [pixels]; edges are stepped in its rows.
+/// ambiguous where the sample lies within d [pixels] of an edge of the candidate's triangle. d is the sum of the edge's
+/// displacements by the declared grid (no grid: by rounding in float), by exact's snapping to 1/256 pixel, and by
+/// stepping in float where depth_arithmetic declares stepping. On a declared grid of 1/256 pixel the first two are 0,
+/// unless a corner lies between two grid positions.
+/// A fragment differs nevertheless where the sample lies on an edge that two triangles share (shared_edges.h), near no
+/// other edge of these, and is not in exactly one of the two (inclusive: nor in both; exclusive: nor in neither).
+/// `sample`: sample position [pixels from the pixel's corner of smallest coordinates]. `height`: of the frame [pixels],
+/// in whose rows edges are stepped.
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
                                          const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5),
                                          double height = kNoSides.y);
-/// True if the candidate may have snapped a corner to several grid positions: its records hold none, and a corner lies
-/// within 4 u of the middle between two (rounded to the nearest) or within kOfFixedPoint of one (down, up).
+/// True if the candidate may have snapped a corner to either of two grid positions: its records hold no snapped
+/// positions, and a corner lies within 4 u of the middle between two grid positions (rounding to the nearest) or within
+/// kOfFixedPoint of a grid position (rounding down or up).
 bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, SnappedBy snapped_by);
 /// compare_covered() for a candidate whose tie rule and grid the reference follows (run_by_conventions.h). Fragments at
-/// edges are ambiguous only in triangles that has_corner_between_places().
+/// edges are ambiguous only in triangles for which has_corner_between_places() is true.
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions, SnappedBy snapped_by = SnappedBy::renderer,
                                     double height = kNoSides.y);

@@ -21,7 +21,7 @@ struct Finding {
   Measurement measurement;           ///< and by how much it is off
   std::vector<std::string> numbers;  ///< the worst record: input, output, expected output and its source
   std::vector<std::string> causes;   ///< likely causes in words, with the evidence (causes.h)
-  std::size_t explains = 0;          ///< pixels of the final picture (effect.h); not where fragments are too many
+  std::size_t explains = 0;          ///< pixels of the final picture (effect.h); 0: none, or fragments were too many
   std::string picture;  ///< coverage: the worst triangle, `#` both, `?` missing, `!` extra; rows from the top; or empty
 };
 
@@ -43,8 +43,8 @@ struct Diagnosis {
 // Kind::repaired: stages after the first one that is wrong by itself, where the candidate runs stages. The candidate
 // runs each stage on its own records, in which exact's, rounded to the formats, replace those of wrong stages; exact
 // judges the result. Finds errors that an earlier error masks.
-// Kind::at_worst: where fragments are more than are looked at one by one, stages 6 to 9 of the fragments at the 5 x 5
-// pixels about each row's worst pixel, captured once more.
+// Kind::at_worst: stages 6 to 9 of the fragments at the 5 x 5 pixels about each row's worst pixel, captured once more,
+// where a scene has more fragments than are recorded.
 
 /// Default limit of recorded fragments in a diagnosis, shared by an antialiased scene's passes; some seconds of work.
 inline constexpr std::uint64_t kMostFragments = std::uint64_t{1} << 20;

@@ -17,7 +17,7 @@ bool colors_truncated(const Evidence& e) {
   const auto &mine = e.candidate.planes.color.values(), &theirs = e.expected.planes.color.values();
   const double scale = color_scale(e.scene.frame.color);
   Truncation t;
-  const auto& id = e.candidate.planes.id.values();  // what is cleared does not go this way
+  const auto& id = e.candidate.planes.id.values();  // the clear colour may be rounded otherwise
   for (std::size_t i = 0; i < std::min(mine.size(), theirs.size()); ++i) {
     if (i < id.size() && id[i] == kBackground) continue;
     for (int c = 0; c < 4; ++c) t.add(std::nearbyint(mine[i][c] * scale), theirs[i][c] * scale);

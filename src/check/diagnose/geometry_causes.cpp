@@ -40,8 +40,8 @@ void eye_space_is_the_world(Scene& scene) {
   scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 }
 
-// Detector of fixed point: numbers that should be no multiples of 2^-16 are the multiples near them. Floats from 128 on
-// are always multiples.
+// Detector of fixed point: all numbers expected off the multiples of 2^-16 are multiples, within 2^-10 of the expected
+// ones. Floats of 128 and more are always multiples.
 class FixedPoint {
  public:
   void add(const auto& is, const auto& expected) {
@@ -110,7 +110,7 @@ bool not_cut(const Evidence& e) {
                                      [](const ClipVertex<double>& v) { return outside(v, plane); });
 }
 
-// Whether visit(mine, theirs) is true of each primitive with a polygon on either side; null on the side without.
+// True: visit(mine, theirs) holds for each primitive with a polygon on either side; null: that side has no polygon.
 bool each_polygon(const Evidence& e, auto visit) {
   using Run = std::span<const ClipPolygon>;
   bool all = true;

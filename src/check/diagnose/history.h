@@ -35,7 +35,7 @@ struct PixelFragment {
   std::size_t draw = 0;
   std::optional<std::uint32_t> triangle;  ///< its place among the renderer's window triangles
   bool front = true;                      ///< facing; true of lines and points
-  std::optional<double> depth;            ///< window z; not rounded to the frame's format by renderers that compute so
+  std::optional<double> depth;            ///< window z, unrounded where the renderer hands it out unrounded
   std::optional<glm::dvec4> color;        ///< interpolated
   std::vector<std::pair<Varying, glm::dvec4>> varyings;
   std::optional<glm::dvec4> texel;

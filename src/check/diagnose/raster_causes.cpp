@@ -49,7 +49,8 @@ bool all_on_edges(const Evidence& e) {
   return missing == (kind != EdgeDifference::extra) && extra == (kind != EdgeDifference::missing);
 }
 
-// Whether each triangle lacks its last column, or row, or both, and nothing else.
+// True: triangles that differ lack pixels of their last column or row alone. (One such pixel must lie off all edges,
+// and one such triangle must cover other pixels.)
 bool box_one_short(const Evidence& e) {
   const std::vector<CoverageDifference> all = coverage_differences(e);
   std::size_t inner = 0;
@@ -66,7 +67,7 @@ bool box_one_short(const Evidence& e) {
       return !on_an_edge(e.candidate.records.triangles.at(d.triangle), p, sample_offset(e.scene.frame));
     });
   }
-  return inner > 0 && has_other_pixels;  // or it may be the tie rule
+  return inner > 0 && has_other_pixels;  // if all pixels lie on edges, the tie rule may be the cause
 }
 
 // Whether the area of a triangle, unsnapped or snapped, is below half a pixel.

@@ -60,7 +60,7 @@ std::string_view outcome_of(const check::SceneVerdict& verdict, bool fails) {
   return name_of(Outcome::unsupported);
 }
 
-// Planes of the reference's capture; where that holds no colour, the reference draws the scene for the reader.
+// Planes of the reference's capture; planes that the reference draws for the page, where the capture has no colour.
 Planes planes_of(const Scene& scene, const check::Reference& reference, const Capture& drawn) {
   if (!drawn.planes.color.empty() || reference.renderer == nullptr) return drawn.planes;
   try {

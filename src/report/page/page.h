@@ -12,8 +12,8 @@
 
 namespace plumbline::report {
 
-/// A folder with index.html and the files that it shows; works offline. commit() makes the folder appear, complete. It
-/// may replace an earlier page alone, known by a list of the page's files in the folder.
+/// A folder with index.html and the files that it shows; works offline. commit() makes the folder appear, complete.
+/// commit() replaces no folder but an empty one or an earlier page, which holds a list of its own files.
 class PageFolder {
  public:
   /// Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not a page's.

@@ -18,8 +18,8 @@ struct Layer {
   std::string name;            ///< such as "depth": unique among a viewer's layers
   std::string says;            ///< what its colours mean
   std::string paint;           ///< how numbers become colours: a painter of web/planes.js (PAINTERS)
-  std::vector<Stage> judged;   ///< the stages whose rows are about it, the likeliest first
-  std::vector<Numbers> sides;  ///< empty where a side hands out none; of the frame's size, or not shown
+  std::vector<Stage> judged;   ///< the stages whose rows judge the layer, the likeliest first
+  std::vector<Numbers> sides;  ///< one per side; empty: handed out by none; not shown in another size than the frame's
 };
 
 struct Viewed {

@@ -106,8 +106,8 @@ namespace {
 // Two digits: enough to judge a tolerance by, and the same from one run to the next.
 Json share(double ratio) { return json_number(std::round(ratio * 100) / 100); }
 
-// Of each group of scenes, how many there are, and the largest differences of each reference, stage and unit; what is
-// not there is equal, or not compared.
+// Number of scenes of each group, and the group's largest difference by reference, stage and unit. A combination that
+// is absent is equal, or was not compared.
 Json groups(std::span<const check::SceneVerdict> verdicts) {
   struct Group {
     int scenes = 0;

@@ -12,7 +12,7 @@ namespace plumbline::report {
 
 namespace {
 
-// XML holds no control characters, escaped neither, and not U+FFFE and U+FFFF.
+// Text for XML. Replaces by "?" what XML forbids even escaped: control characters but \n and \t, U+FFFE and U+FFFF.
 std::string xml(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'; }, '?');

@@ -154,7 +154,7 @@ std::string further_line(std::span<const check::SceneVerdict> verdicts) {
                         : fmt::format("wrong by itself beside the first wrong stage: {}\n", counted(by_count(scenes)));
 }
 
-// Line on what nobody judged of scenes that are right or legal. Empty: colour and depth were judged in all of them.
+// Line on scenes that are right or legal, and whose colour or depth no reference judged. Empty: there are none.
 std::string not_judged_line(std::span<const check::SceneVerdict> verdicts) {
   Counts scenes;
   for (const check::SceneVerdict& verdict : verdicts) {

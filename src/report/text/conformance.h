@@ -14,7 +14,7 @@ namespace plumbline::report {
 /// How one scene ended.
 enum class Conformance {
   holds,    ///< a stage at least was judged, none is wrong
-  legal,    ///< a stage differs from a reference's, and an oracle calls what is drawn legal: by other rules
+  legal,    ///< a stage differs from a reference's, and an oracle finds it legal: drawn by other rules
   known,    ///< what is wrong is expected (--expect)
   differs,  ///< a stage is wrong, and no oracle calls it legal
   failed,   ///< the program crashed, hung, or left what cannot be read
@@ -43,8 +43,8 @@ std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdi
 /// Tally of all scenes, as of one feature.
 FeatureTally whole_suite(std::span<const check::SceneVerdict> verdicts);
 
-/// Lines for people: a row per feature, then why scenes are not drawn and known faults that draw what is wrong, the
-/// most frequent first.
+/// Table of features, then lines: reasons why scenes are unable, stages not judged, and known faults whose pictures the
+/// program draws, the most frequent first.
 std::string conformance_text(std::span<const check::SceneVerdict> verdicts);
 /// Text of conformance_text() as a section of a CI page, in Markdown.
 std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts);

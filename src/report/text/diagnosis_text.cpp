@@ -32,7 +32,7 @@ std::string stage_names(const std::vector<Stage>& stages) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Remark on the first different stage, where it is less than a mistake of that stage, or of the frame.
+// Remark on a first different stage that may be right: its difference is legal, or the frame alone was judged.
 std::string_view remark_on(const check::Diagnosis& diagnosis) {
   const Stage stage = *diagnosis.first;
   const bool is_legal = check::is_legal(diagnosis.verdict, stage);

@@ -9,7 +9,7 @@
 
 namespace plumbline::report {
 
-/// Text for a cell of a table: one line, and what Markdown or HTML would take for its own, escaped.
+/// Text for a cell of a table: one line, in which what Markdown or HTML would interpret is escaped.
 std::string cell(std::string_view text);
 
 /// The summary; numbers of comparisons by outcome; a row for each scene that does not hold (at most

@@ -37,7 +37,10 @@ function go(changes, {anew = false} = {}) {
 const VIEWER_PARTS = {picture: null, against: null, as: null, pixel: null, zoom: null};
 
 let keeping = 0;
-/** A while after the last change: browsers stop pages that change their address with every move of the pointer. */
+/**
+ * Keeps the viewer's state in the address, 0.4 s after the last change: browsers stop pages that change their address
+ * with every move of the pointer.
+ */
 function keepViewer(viewer) {
   clearTimeout(keeping);
   keeping = setTimeout(() => {
@@ -50,7 +53,7 @@ function keepViewer(viewer) {
 
 // ---- overview
 
-/** A name that lines may break after its / and _. */
+/** Parts of a name, between which lines may break: after each / and _. */
 const breakable = (name) => name.split(/(?<=[/_])/).flatMap((part, i) => (i === 0 ? [part] : [element('wbr'), part]));
 
 function card(scene) {

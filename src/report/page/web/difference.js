@@ -1,5 +1,5 @@
 'use strict';
-// What two sides' pixels are to each other, as a picture with its legend.
+// Difference of two sides' pixels, as a picture with its legend.
 
 const CLASSES = [
   {name: 'equal', color: [0, 0, 0]},  // shown as the picture itself, in dark grey
@@ -10,8 +10,8 @@ const CLASSES = [
 ];
 
 /**
- * Of a layer's side 0 and `against`: each pixel's class and how far it is apart, with counts. `marks`: what the chosen
- * row of the table says of each pixel (1: beyond its tolerance, 2: disputed), or null.
+ * Difference of a layer's side 0 from side `against`: class and distance of each pixel, number of pixels by class, and
+ * largest distance. `marks`: the chosen row's mark of each pixel (1: beyond its tolerance, 2: disputed), or null.
  */
 function differenceOf(view, layer, against, marks) {
   const [a, b] = [layer.planes[0], layer.planes[against]];
@@ -36,7 +36,7 @@ const hasIds = (view, side) => {
   return Boolean(ids?.planes[0] && ids.planes[side]);
 };
 
-/** Colours of it: brighter is farther apart, full at `much`. */
+/** Painter of a difference: brighter is farther apart; full brightness at a distance of `much`. */
 function differencePainter(difference, painter, much) {
   return (p) => {
     const kind = difference.classes[p];
@@ -51,7 +51,7 @@ function differencePainter(difference, painter, much) {
   };
 }
 
-/** What counts as a great difference: a tenth of the range of codes or values, one of whole numbers. */
+/** Distance painted brightest: a tenth of the range of codes or values, 1e-3 of float depths, 1 of whole numbers. */
 const muchOf = (numbers, paint) =>
   numbers.scale > 0 ? 0.1 * numbers.scale : numbers.scale < 0 ? 1 : paint === 'depth' ? 1e-3 : 0.1;
 

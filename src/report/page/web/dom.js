@@ -11,7 +11,7 @@ function element(tag, properties = {}, ...children) {
   return out;
 }
 
-/** Buttons of which one is pressed. `chosen(name)` is called for the one that shall be. */
+/** Group of buttons of which one is pressed. A click calls `chosen(name)`; show(name) presses the button. */
 class Choice {
   constructor(label, names, chosen) {
     this.buttons = new Map();
@@ -28,7 +28,7 @@ class Choice {
   }
 }
 
-/** Light, dark, or as the system has it: a button, whose choice is kept where the browser lets a page. */
+/** Button for the theme: the system's, light, or dark. The choice is kept where the browser lets a page store it. */
 function themeButton() {
   const names = ['system', 'light', 'dark'];
   const button = element('button', {type: 'button', id: 'theme'});
@@ -61,7 +61,7 @@ function copied(text) {
     try {
       await navigator.clipboard.writeText(text);
       button.textContent = 'copied';
-    } catch {  // not allowed: selected, so that a key copies it
+    } catch {  // no access to the clipboard: select the text, so that a key copies it
       getSelection().selectAllChildren(code);
       button.textContent = 'selected';
     }

@@ -7,7 +7,7 @@ async function inflated(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** `base`: the values that these are the differences from, or undefined. */
+/** Values of a packed side. `base`: values to which the packed differences are added, or undefined. */
 async function unpacked({data, bytes, channels}, base) {
   const packed = await inflated(data);
   const count = packed.length / bytes;
@@ -36,7 +36,7 @@ class Numbers {
   value(i) {
     return this.scale > 0 ? this.values[i] / this.scale : this.stored(i);
   }
-  /** In codes of `scale`, where it is given and the numbers are none: with a fraction. */
+  /** Text of a pixel's numbers. Where `scale` is above 0, floats are given in codes of `scale`, with a fraction. */
   text(pixel, scale = this.scale) {
     const parts = [];
     for (let c = 0; c < this.channels; ++c) {
@@ -55,8 +55,8 @@ function numberText(v) {
 }
 
 /**
- * How far two sides are apart at a pixel: in codes, or in the values' unit; Infinity where one is no number. What is not
- * rounded is not apart from the code that it rounds to.
+ * Distance of two sides at a pixel, in codes or in the values' unit; Infinity: one of the two is no number. A number
+ * that rounds to the other side's code is at distance 0.
  */
 function apart(a, b, pixel) {
   let most = 0;
@@ -71,7 +71,7 @@ function apart(a, b, pixel) {
   return most;
 }
 
-/** The view with what is packed unpacked: layers[].planes[side], marks[], comparisons[]. */
+/** The view, unpacked: layers[].planes[side], marks[], comparisons[]. */
 async function unpackedView(view) {
   const layers = [];
   for (const layer of view.layers) {
@@ -79,7 +79,7 @@ async function unpackedView(view) {
     for (const side of layer.sides) {
       const base = side?.base === null ? undefined : planes[side?.base];
       if (side === null) planes.push(null);
-      else if (side.data === undefined) planes.push(base);  // not a number is different
+      else if (side.data === undefined) planes.push(base);  // no data: every number equals the base's
       else planes.push(new Numbers(await unpacked(side, base?.values), side.scale, side.channels));
     }
     layers.push({...layer, planes});
@@ -102,7 +102,7 @@ function ramp(t) {
 const byteOf = (v) => (Number.isFinite(v) ? Math.min(Math.max(v, 0), 1) * 255 : 255);
 const fraction = (v) => (Number.isFinite(v) ? v - Math.floor(v) : 1);
 
-/** Each gives, of a layer and one of its sides, a function from a pixel to its colour. */
+/** Painters: each makes a function from a pixel to its colour, for one side of a layer. */
 const PAINTERS = {
   color: (_view, numbers) => (p) => [0, 1, 2].map((c) => byteOf(numbers.value(4 * p + c))),
   id: (_view, numbers) => (p) => {
@@ -137,7 +137,7 @@ const PAINTERS = {
   },
 };
 
-/** Whether no primitive won at the pixel, as far as the side says. */
+/** True: by the side's plane of winners, no primitive won the pixel. */
 function isBackground(view, side, pixel) {
   const ids = view.layers.find((layer) => layer.paint === 'id')?.planes[side];
   return ids ? ids.stored(pixel) < 0 : false;

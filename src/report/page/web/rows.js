@@ -1,7 +1,7 @@
 'use strict';
 // The table of stages and judges, and one of its rows in full.
 
-/** How bad an outcome is; what is not judged says nothing of the scene. */
+/** Outcomes from the least severe to the most severe; `unsupported` says nothing of the scene. */
 const SEVERITY = ['unsupported', 'equal', 'within', 'ambiguous_only', 'dispute', 'expected', 'fails', 'different', 'missing', 'failed'];
 const outcomeClass = (outcome) =>
   ['different', 'missing', 'failed', 'fails'].includes(outcome) ? 'bad' :
@@ -11,7 +11,7 @@ const outcomeText = (outcome) => outcome.replace('_', ' ');
 const isJudged = (row) => !['unsupported', 'missing', 'failed'].includes(row.outcome) && row.pixels > 0;
 const sayNumber = (v) => (typeof v === 'number' ? String(Number(v.toPrecision(4))) : v);  // "inf" and "nan" are strings
 
-/** What a row is worst at: of a dispute its own largest difference; null where nothing is apart. */
+/** Worst item of a row; of a disputed row, the worst disputed item; null: no item is apart. */
 const worstOf = (row) => (row.outcome === 'dispute' ? row.dispute ?? row.worst : row.worst);
 
 function shortText(row) {
@@ -21,7 +21,7 @@ function shortText(row) {
   return '';
 }
 
-/** 3 of unit 1/255 are 3/255. */
+/** Number with its unit: 3 in the unit 1/255 is written 3/255. */
 const withUnit = (v, unit) => `${sayNumber(v)}${unit.startsWith('1/') ? unit.slice(1) : ` ${unit}`}`;
 
 function sizeText(row) {
@@ -63,7 +63,7 @@ class StageTable {
   }
 }
 
-/** All that is known of a row. */
+/** Description list of a row's numbers, beside its histogram. */
 function rowDetails(row) {
   const list = element('dl');
   const say = (name, value) => {
@@ -93,7 +93,7 @@ function rowDetails(row) {
 
 const sayNumberInFull = (v) => (typeof v === 'number' ? numberText(v) : v);
 
-/** Items by difference: bar i of [2^(i-13), 2^(i-12)) units, the first of none, the last of what is no number. */
+/** Histogram of differences: bar i counts items in [2^(i-13), 2^(i-12)) units, bar 0 equal ones, bar 19 no numbers. */
 function histogram(row) {
   const total = row.histogram.reduce((sum, n) => sum + n, 0);
   if (total === 0) return '';
@@ -119,7 +119,7 @@ function histogram(row) {
   return element('figure', {}, svg, element('figcaption', {}, `items by difference, in ${row.unit || 'units'}; heights by logarithm`));
 }
 
-/** The row that says most of a layer, against a side (what is expected, any judge says); or null. */
+/** Row that judges a layer against a side, rows with marks first; against 'expected', any judge's row; null: none. */
 function rowOf(rows, layer, side) {
   for (const stage of layer.judged) {
     const found = rows.filter((row) => row.stage === stage && (side === 'expected' || row.reference === side));
@@ -128,7 +128,7 @@ function rowOf(rows, layer, side) {
   }
   return null;
 }
-/** What to look at for a row: a layer's name, and a side's. */
+/** Names of the layer and of the side that show what a row is about. */
 function lookAt(view, row) {
   const layer = view.layers.find((l) => l.judged[0] === row.stage) ?? view.layers.find((l) => l.judged.includes(row.stage));
   const side = view.sides.find((s) => s === row.reference);

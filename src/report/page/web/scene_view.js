@@ -22,7 +22,7 @@ class SceneView {
     const start = this.first ?? told ?? (colour && rowOf(this.rows, colour, view.sides[1])) ?? this.rows[0];
     if (start) this.choose(start);
   }
-  /** Shows a row: its numbers, its pixels, what it is about. */
+  /** Chooses a row: shows its numbers, and in the viewer its layer, its side, its marks and its worst pixel. */
   choose(row) {
     const {view} = this.viewer;
     this.show(row);
@@ -37,7 +37,7 @@ class SceneView {
   marksOf(row) {
     return {marks: row.mark === undefined ? null : this.viewer.view.marks[row.mark], judging: row.stage};
   }
-  /** Where the viewer goes to what another row is about, that row is chosen. */
+  /** Shows the row of the viewer's layer and side, where the chosen row is about others. */
   follow({view, layer, against}) {
     const about = this.row && lookAt(view, this.row);
     const is = (side) => side === undefined || side === view.sides[against];

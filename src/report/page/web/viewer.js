@@ -1,10 +1,10 @@
 'use strict';
-// Pictures of two sides and their difference: side by side, under a slider, or in turns; to the pixel, with its numbers.
+// Pictures of two sides and their difference, side by side, under a slider or in turns, with each pixel's numbers.
 
 const MODES = ['side by side', 'slider', 'flicker'];
-const GRID_FROM = 8;  // screen pixels a pixel, from which on lines part them
+const GRID_FROM = 8;  // least scale at which lines separate pixels [screen pixels per pixel]
 const MOST = 64;
-const THINNEST = 4;  // screen pixels that a picture is wide or high at least
+const THINNEST = 4;  // least width and height of a picture [screen pixels]
 
 class Viewer {
   /** `view`: of unpackedView(). `changed(viewer)` is called whenever its state, which an address may keep, changes. */
@@ -54,7 +54,7 @@ class Viewer {
     this.show();
   }
 
-  /** Ends what runs. */
+  /** Stops the timer and the observer of sizes. */
   close() {
     clearInterval(this.timer);
     this.resized.disconnect();
@@ -67,7 +67,10 @@ class Viewer {
       `here, from ${view.x},${view.y}: about the worst, as many as a page of small size holds`);
   }
 
-  /** Any of layer, against, mode (names), pixel ([x, y] of the frame, or null), scale; marks and the stage that is judging. */
+  /**
+   * Sets any of layer, against, mode (by name), pixel ([x, y] of the frame, or null), scale, marks, and judging (the
+   * stage whose tolerance the marks are beyond).
+   */
   set(state) {
     const {view} = this;
     const before = this.seen();
@@ -85,7 +88,7 @@ class Viewer {
     else this.show();
     this.changed(this);
   }
-  /** What the pictures are made of. */
+  /** State that the pictures depend on. */
   seen() {
     return [this.layer?.name, this.against, this.mode, this.view.marks.indexOf(this.marks), this.judging];
   }
@@ -107,7 +110,7 @@ class Viewer {
     return (y - this.view.y) * this.view.columns + (x - this.view.x);
   }
 
-  /** Everything anew, for another picture. */
+  /** Paints the pictures of the layer, the sides and the mode, and rebuilds legend, canvases and numbers. */
   show() {
     const {view, layer, against} = this;
     this.layers.show(layer?.name);
@@ -155,7 +158,7 @@ class Viewer {
     return canvas;
   }
 
-  /** The canvases that the mode wants: each of a list of pictures, of which it shows the first, or parts of both. */
+  /** Makes the mode's canvases. Each shows one picture, or, of two, one in turn (flicker) or parts of both (slider). */
   layout() {
     const [ours, theirs] = [this.view.sides[0], this.view.sides[this.against]];
     const [a, b, difference] = this.pictures;
@@ -181,10 +184,10 @@ class Viewer {
     this.panes.replaceChildren(...this.shown.map((s) => element('figure', {}, s.canvas, s.caption, s.both)));
   }
 
-  /** What a canvas shows: screen pixels a pixel, and the picture's place at its upper left. */
+  /** Part of the picture in a canvas: scale [screen pixels per pixel], and the picture's place at the upper left. */
   window(width, height) {
     const {view} = this;
-    // All of it, but for a frame so long that it would be a hair.
+    // Fits the whole picture, unless its shorter side would fall below THINNEST.
     const fit = Math.max(Math.min(width / view.columns, height / view.rows), THINNEST / Math.min(view.columns, view.rows));
     const scale = this.scale || (fit >= 1 ? Math.floor(fit) : fit);
     const start = (middle, size, all) =>
@@ -299,7 +302,7 @@ class Viewer {
 
   turn(asked) {
     if (this.mode !== 'flicker' || (!asked && this.paused)) return;
-    if (asked) this.paused = true;  // who turns it by hand looks at one
+    if (asked) this.paused = true;  // a turn by hand stops the timer's turns
     this.second = !this.second;
     this.draw();
   }
