@@ -52,12 +52,14 @@ struct Blender {
   Interval destination_term(const BlendTerm& term, std::size_t c) const {
     return destination[c] * factor(term.destination, c) / one;
   }
-  /// Largest sum of absolute values that are rounded: the terms; the colours where the factors are complements, as
-  /// a renderer may have s a + d (1 - a) as d + a (s - d).
+  /// Largest sum of absolute values that are rounded: of the terms; where the factors are complements, of the colours
+  /// times the larger factor above 1, as a renderer may have s a + d (1 - a) as d + a (s - d).
   double magnitude(const BlendTerm& term, std::size_t c) const {
     const auto largest = [](Interval v) { return std::max(std::abs(v.lo), std::abs(v.hi)); };
-    if (are_complements(term.source, term.destination)) return largest(source[c]) + largest(destination[c]);
-    return largest(source_term(term, c)) + largest(destination_term(term, c));
+    if (!are_complements(term.source, term.destination))
+      return largest(source_term(term, c)) + largest(destination_term(term, c));
+    const double factors = std::max(largest(factor(term.source, c)), largest(factor(term.destination, c)));
+    return std::max(1.0, factors / one) * (largest(source[c]) + largest(destination[c]));
   }
 
   Interval operator()(const BlendTerm& term, std::size_t c) const {

@@ -50,7 +50,7 @@ glm::ivec2 snapped_place(const Vec3<double>& p_win, std::size_t record, const Co
         "window.snapped: left out, and the p_win of record {} is ({} {}): expected a place within 2^22 pixels", record,
         p_win.x, p_win.y));
   }
-  return {snapped(conventions, steps.x), snapped(conventions, steps.y)};
+  return {snapped(conventions, 0, steps.x), snapped(conventions, 1, steps.y)};
 }
 
 Vec3<double> unit(const Vec3<double>& v) {
@@ -127,7 +127,7 @@ int snapped_side(const WindowTriangle<double>& t, const Conventions& conventions
   if (conventions.subpixel_bits <= 8)
     return side_of(t, [](const WindowVertex<double>& v) { return glm::i64vec2(v.snapped); });
   return side_of(t, [&](const WindowVertex<double>& v) {  // snapped is too coarse
-    return glm::vec<2, long double>(on_grid(conventions, v.p_win.x), on_grid(conventions, v.p_win.y));
+    return glm::vec<2, long double>(on_grid(conventions, 0, v.p_win.x), on_grid(conventions, 1, v.p_win.y));
   });
 }
 

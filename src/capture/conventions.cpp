@@ -23,23 +23,30 @@ double middle_of(Conventions::Rounding rounding) {
 
 double srgb_encoded(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
-double snapped(const Conventions& conventions, double from_centre) {
+double snapped(const Conventions& conventions, int axis, double from_centre) {
   constexpr int kBits = 8;  // of 1/256
   const int bits = conventions.subpixel_bits;
   if (bits < 0 || bits > kBits) return std::nearbyint(from_centre);
-  const double steps = std::ldexp(1.0, kBits - bits);
-  return rounded(conventions.subpixel_rounding, from_centre / steps) * steps;
+  // to_dialect() moved positions by `moved`, and snapped ones by `moved`, rounded.
+  const double steps = std::ldexp(1.0, kBits - bits), half = std::ldexp(0.5, kBits),
+               moved = half - std::ldexp(conventions.sample[axis], kBits);
+  const double from_side = rounded(conventions.subpixel_rounding, (from_centre - moved + half) / steps) * steps;
+  return from_side - half + std::round(moved);
 }
 
-SnappedRange snapped_range(const Conventions& conventions, double from_centre) {
+SnappedRange snapped_range(const Conventions& conventions, int axis, double from_centre) {
   constexpr double kSteps = 256;  // of 1/256 pixel
   const bool is_to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
   const double before = is_to_nearest ? 0 : kSteps * kOfFixedPoint;
-  return {snapped(conventions, from_centre - before), snapped(conventions, from_centre + before)};
+  return {snapped(conventions, axis, from_centre - before), snapped(conventions, axis, from_centre + before)};
 }
 
-double on_grid(const Conventions& conventions, double p_win) {
-  return rounded(conventions.subpixel_rounding, std::ldexp(p_win - 0.5, conventions.subpixel_bits));
+double in_steps(const Conventions& conventions, int axis, double p_win) {
+  return std::ldexp(p_win - 0.5 + conventions.sample[axis], conventions.subpixel_bits);
+}
+
+double on_grid(const Conventions& conventions, int axis, double p_win) {
+  return rounded(conventions.subpixel_rounding, in_steps(conventions, axis, p_win));
 }
 
 bool settles_ties(const Conventions& c) {

@@ -135,9 +135,11 @@ double middle_of(Conventions::Rounding rounding);
 /// The sRGB encoding of a linear intensity, both in [0,1] (IEC 61966-2-1).
 double srgb_encoded(double linear);
 
-/// A window coordinate, counted from the first pixel's centre [1/256 pixel], snapped to the grid of the conventions;
-/// rounded to the nearest whole number where that grid is finer than 1/256 pixel, or there is none.
-double snapped(const Conventions& conventions, double from_centre);
+/// Snapped window coordinate of an axis (0: x, 1: y), counted from the first pixel's centre [1/256 pixel]. Positions of
+/// the declared grid are the multiples of 2^-subpixel_bits pixel in the renderer's own window coordinates, which
+/// to_dialect() moves by 1/2 - sample: whole pixels (0 bits) are pixels' borders, wherever the sample lies. Rounded to
+/// the nearest whole number where that grid is finer than 1/256 pixel, or there is none.
+double snapped(const Conventions& conventions, int axis, double from_centre);
 /// Largest displacement [pixels] of a position that is converted to the nearest multiple of 2^-11 before it is rounded
 /// down or up.
 inline constexpr double kOfFixedPoint = 0x1p-12;
@@ -147,11 +149,13 @@ inline constexpr double kOfFixedPoint = 0x1p-12;
 struct SnappedRange {
   double least, most;
 };
-SnappedRange snapped_range(const Conventions& conventions, double from_centre);
+SnappedRange snapped_range(const Conventions& conventions, int axis, double from_centre);
 
-/// A window coordinate [pixel] on the grid of the conventions, whatever its fineness, counted from the first pixel's
-/// centre [the grid's steps, 2^-subpixel_bits pixel]. There must be a grid.
-double on_grid(const Conventions& conventions, double p_win);
+/// Position of a window coordinate [pixels] in the renderer's own window, before snapping: from the frame's side [the
+/// grid's steps, 2^-subpixel_bits pixel]. There must be a grid.
+double in_steps(const Conventions& conventions, int axis, double p_win);
+/// The same on the grid, whatever the grid's fineness: a whole number.
+double on_grid(const Conventions& conventions, int axis, double p_win);
 
 /// A convention for people.
 struct ConventionWords {

@@ -160,18 +160,33 @@ TEST(Conventions, ASceneIsAlteredOnlyWhereItMustBe) {
 TEST(Conventions, WindowCoordinatesLieOnTheDeclaredGrid) {
   Conventions c;
   const double p_win = 3.5 + 37.4 / 1024;  // of the fourth pixel's centre
-  EXPECT_EQ(on_grid(c, 0.5), 0);
-  EXPECT_EQ(on_grid(c, p_win), 3 * 256 + 9);
-  EXPECT_EQ(snapped(c, (p_win - 0.5) * 256), 3 * 256 + 9);
+  EXPECT_EQ(on_grid(c, 0, 0.5), 128);
+  EXPECT_EQ(on_grid(c, 0, p_win), 3 * 256 + 128 + 9);
+  EXPECT_EQ(snapped(c, 0, (p_win - 0.5) * 256), 3 * 256 + 9);
   c.subpixel_bits = 10;
-  EXPECT_EQ(on_grid(c, p_win), 3 * 1024 + 37);
-  EXPECT_EQ(snapped(c, (p_win - 0.5) * 256), 3 * 256 + 9) << "to 1/256 pixel at the finest";
+  EXPECT_EQ(on_grid(c, 1, p_win), 3 * 1024 + 512 + 37);
+  EXPECT_EQ(snapped(c, 1, (p_win - 0.5) * 256), 3 * 256 + 9) << "to 1/256 pixel at the finest";
   c.subpixel_rounding = Conventions::Rounding::up;
-  EXPECT_EQ(on_grid(c, p_win), 3 * 1024 + 38);
+  EXPECT_EQ(on_grid(c, 1, p_win), 3 * 1024 + 512 + 38);
   c.subpixel_bits = 4, c.subpixel_rounding = Conventions::Rounding::down;
-  EXPECT_EQ(on_grid(c, p_win), 3 * 16 + 0);
-  EXPECT_EQ(on_grid(c, 0.5 - 1.0 / 64), -1) << "left of the first centre";
-  EXPECT_EQ(snapped(c, (p_win - 0.5) * 256), 3 * 256) << "counted in 1/256 pixel still";
+  EXPECT_EQ(on_grid(c, 0, p_win), 3 * 16 + 8);
+  EXPECT_EQ(on_grid(c, 0, -1.0 / 64), -1) << "left of the frame";
+  EXPECT_EQ(snapped(c, 0, (p_win - 0.5) * 256), 3 * 256) << "counted in 1/256 pixel still";
+}
+
+// Whole pixels are borders. A sample at x 1/4 is moved by 1/4 to the centre, and window x with it.
+TEST(Conventions, AGridIsOfTheRenderersOwnWindow) {
+  Conventions c;
+  c.subpixel_bits = 0;
+  EXPECT_EQ(on_grid(c, 0, 3.25), 3);
+  EXPECT_EQ(snapped(c, 0, (3.25 - 0.5) * 256), 3 * 256 - 128);
+  EXPECT_EQ(snapped(c, 0, (3.75 - 0.5) * 256), 4 * 256 - 128);
+  c.sample = {0.25, 0};
+  EXPECT_EQ(on_grid(c, 0, 3.5), 3) << "3.25 before it was moved";
+  EXPECT_EQ(on_grid(c, 0, 3.875), 4);
+  EXPECT_EQ(snapped(c, 0, (3.5 - 0.5) * 256), 3 * 256 - 128 + 64);
+  EXPECT_EQ(on_grid(c, 1, 3.5), 3);
+  EXPECT_EQ(snapped(c, 1, (3.75 - 0.5) * 256), 3 * 256) << "borders are moved to centres";
 }
 
 }  // namespace

@@ -81,7 +81,9 @@ struct Held {
     }
     const Factor s = factor(term.source, source, constant, was), d = factor(term.destination, source, constant, was);
     most = source.color * s.most + was * d.most;
-    const double rounded = math::are_complements(term.source, term.destination) ? source.color + was : most;
+    // A renderer may have s a + d (1 - a) as d + a (s - d).
+    const bool may_be_mix = math::are_complements(term.source, term.destination);
+    const double rounded = may_be_mix ? std::max({1.0, s.most, d.most}) * (source.color + was) : most;
     error = error * (source.color * s.per_held + d.most + was * d.per_held) + kPerLayer * rounded;
   }
 };

@@ -11,8 +11,8 @@ namespace plumbline::check {
 bool factors_read_frame(const Scene& scene);
 
 /// Rounding error of each pixel's colour by blending in float [u]: per layer, the error so far times what the factors
-/// let through, plus 4 u of the sum of both terms' absolute values (factors that sum to 1: of both colours'). Source
-/// colours: `records.shaded`; without these, at most 1. 0 where no fragment is drawn.
+/// let through, plus 4 u of the sum of both terms' absolute values (factors that sum to 1: of both colours', times the
+/// larger factor above 1). Source colours: `records.shaded`; without these, at most 1. 0 where no fragment is drawn.
 Plane<double> blending_roundings(const Scene& scene, const Records<double>& records);
 
 }  // namespace plumbline::check

@@ -10,8 +10,10 @@ namespace plumbline::check {
 
 namespace {
 
-double steps_apart(double a, double b, double scale) {
-  if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b)) return 0;
+// Bits: an unsigned integer as wide as Real.
+template <class Bits, class Real>
+double steps_apart(Real a, Real b, double scale) {
+  if (std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b)) return 0;
   return std::max(difference(a, b) * (scale > 0 ? scale : 1), 0x1p-1074);
 }
 
@@ -24,8 +26,8 @@ Measurement compare_color_bits(const Plane<glm::vec4>& a, const Plane<glm::vec4>
   constexpr const char* kFields[] = {"r", "g", "b", "a"};
   return compare_planes(a, b, unit_of(scale), [&](Meter& meter, int x, int y) {
     for (int c = 0; c < 4; ++c) {
-      const double v = a(x, y)[c], w = b(x, y)[c];
-      meter.value(steps_apart(v, w, scale), 0, {x, y, -1, kFields[c]}, v, w);
+      const float v = a(x, y)[c], w = b(x, y)[c];  // conversion to double would quiet a signalling NaN
+      meter.value(steps_apart<std::uint32_t>(v, w, scale), 0, {x, y, -1, kFields[c]}, v, w);
     }
   });
 }
@@ -34,7 +36,7 @@ Measurement compare_depth_bits(const Plane<double>& a, const Plane<double>& b, D
   const double scale = depth_scale(format);
   return compare_planes(a, b, unit_of(scale), [&](Meter& meter, int x, int y) {
     const double v = a(x, y), w = b(x, y);
-    meter.value(steps_apart(v, w, scale), 0, {x, y, -1, "z"}, v, w);
+    meter.value(steps_apart<std::uint64_t>(v, w, scale), 0, {x, y, -1, "z"}, v, w);
   });
 }
 

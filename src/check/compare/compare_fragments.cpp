@@ -80,15 +80,15 @@ bool are_sums_of(const Records<double>& records, const Planes& planes) {
 
 bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, SnappedBy snapped_by) {
   if (snapped_by == SnappedBy::renderer) return false;
-  const double steps = std::exp2(conventions.subpixel_bits);
   const bool is_to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
-  const auto is_between = [&](double p_win) {
-    const double middle = p_win * steps - 0.5;
-    if (is_to_nearest) return std::abs(middle - std::nearbyint(middle)) <= 4 * u * std::max(std::abs(middle), steps);
-    const auto [least, most] = snapped_range(conventions, (p_win - 0.5) * kSubpixel);
+  const double a_pixel = std::exp2(conventions.subpixel_bits);  // [steps]
+  const auto is_between = [&](int axis, double p_win) {
+    const double middle = in_steps(conventions, axis, p_win) - 0.5;
+    if (is_to_nearest) return std::abs(middle - std::nearbyint(middle)) <= 4 * u * std::max(std::abs(middle), a_pixel);
+    const auto [least, most] = snapped_range(conventions, axis, (p_win - 0.5) * kSubpixel);
     return least != most;
   };
-  return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(v.p_win.x) || is_between(v.p_win.y); });
+  return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(0, v.p_win.x) || is_between(1, v.p_win.y); });
 }
 
 namespace {

@@ -144,10 +144,9 @@ class RunComparison {
       meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_,
                    at(number, "inv_w"), v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
-        // to_dialect() moved p_win by `moved`, and the snapped position by `moved`, rounded.
-        const double moved = (0.5 - conventions_.sample[c]) * kSubpixel, place = (v.p_win[c] - 0.5) * kSubpixel - moved,
-                     own = snapped(conventions_, place), given = v.snapped[c] - std::round(moved);
-        const bool may_be = area_ == FacingArea::either && may_be_snapped(place, own, given);
+        const double place = (v.p_win[c] - 0.5) * kSubpixel, own = snapped(conventions_, c, place),
+                     given = v.snapped[c];
+        const bool may_be = area_ == FacingArea::either && may_be_snapped(c, place, given);
         meter_.value(may_be ? 0 : difference(given, own), 0, at(number, "snapped"), given, own);
       }
       const Vec4<double> allowance = colors_ * u * glm::max(glm::abs(colors[k]), Vec4<double>(1));
@@ -157,16 +156,18 @@ class RunComparison {
     meter_.value(difference(a.width, b.width), 0, at(number, "width"), a.width, b.width);
   }
 
-  // True if a foreign renderer may snap `place` to the grid position `other`, beside `own`. Rounded to the nearest:
-  // `other` is as near as `own`; no specification says which is taken; exact takes the even one.
-  bool may_be_snapped(double place, double own, double other) const {
+  // True if a foreign renderer may snap `place` [1/256 pixel] to the grid position `other`. Rounded to the nearest, and
+  // half way between two: to either, for no specification says which; exact takes the even one.
+  bool may_be_snapped(int axis, double place, double other) const {
     if (conventions_.subpixel_bits == Conventions::kFloat || conventions_.subpixel_bits > 8) return false;
     if (conventions_.subpixel_rounding != Conventions::Rounding::nearest) {
-      const auto [least, most] = snapped_range(conventions_, place);
+      const auto [least, most] = snapped_range(conventions_, axis, place);
       return other == least || other == most;
     }
-    const double step = std::exp2(8 - conventions_.subpixel_bits);
-    return 2 * std::abs(place - own) == step && other == 2 * place - own;
+    const double steps = in_steps(conventions_, axis, place / kSubpixel + 0.5);
+    const double quarter = std::exp2(6 - conventions_.subpixel_bits);  // of a step
+    return steps - std::floor(steps) == 0.5 && (other == snapped(conventions_, axis, place - quarter) ||
+                                                other == snapped(conventions_, axis, place + quarter));
   }
 
   static Place at(std::size_t number, const char* field) { return {-1, -1, static_cast<std::int64_t>(number), field}; }

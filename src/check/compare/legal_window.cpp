@@ -30,7 +30,7 @@ Spot snapped_spot(const WindowCorner& c, const Conventions& grid) {
   Spot out{};
   for (int k = 0; k < 2; ++k) {
     const double at = c.vertex.p_win[k], error = c.error[k] + (is_to_nearest ? 0 : kOfFixedPoint),
-                 least = on_grid(grid, at - error), most = on_grid(grid, at + error);
+                 least = on_grid(grid, k, at - error), most = on_grid(grid, k, at + error);
     out.middle[k] = (least + most) / 2;
     out.reach[k] = (most - least) / 2;
   }

@@ -22,11 +22,20 @@ Planes finished(const Scene& scene, Renderer& referee, Stage stage, Capture of) 
   return std::move(of.planes);
 }
 
+// Infinities of one sign are equal, and so are two values that are no numbers.
+bool is_apart(double x, double y, double most) {
+  const bool is_same = x == y || (std::isnan(x) && std::isnan(y));
+  return !is_same && !(std::abs(x - y) <= most);
+}
+
 bool differs(const Scene& scene, const Planes& a, const Planes& b, std::size_t i) {
-  const glm::vec4 apart = glm::abs(a.color.values()[i] - b.color.values()[i]);
-  const double z = a.depth.values()[i], depth = std::abs(z - b.depth.values()[i]);
-  return !(std::max({apart.r, apart.g, apart.b, apart.a}) <= 1.001f / 255) ||
-         !(depth <= 1.001 * depth_step(scene.frame.depth, z));
+  const glm::vec4 &c = a.color.values()[i], &d = b.color.values()[i];
+  const double z = a.depth.values()[i];
+  if (is_apart(z, b.depth.values()[i], 1.001 * depth_step(scene.frame.depth, z))) return true;
+  for (int k = 0; k < 4; ++k) {
+    if (is_apart(c[k], d[k], 1.001 / 255)) return true;
+  }
+  return false;
 }
 
 }  // namespace

@@ -31,6 +31,22 @@ void attributes_of(Capture& in) {
   }
 }
 
+// Corners of the mesh's triangle in the records of a window triangle that is not cut: the hub of a fan comes last.
+enum Corner : std::size_t { second, last, first };
+
+// Two corners have each other's barycentric coordinates.
+template <Corner a, Corner b>
+void weights_swapped(Capture& in) {
+  constexpr auto other = [](std::size_t corner) { return corner == a ? b : corner == b ? a : corner; };
+  attributes_of<other(0), other(1), other(2)>(in);
+  change_all(in.records.triangles, [](auto& t) { std::swap(t.v[a].inv_w, t.v[b].inv_w); });
+}
+
+template <Corner corner>
+void depth_of(WindowTriangle<double>& t) {
+  for (WindowVertex<double>& v : t.v) v.p_win.z = t.v[corner].p_win.z;
+}
+
 // Whether the pixels that differ all lie on edges, and are missing, extra, or of both kinds.
 enum class EdgeDifference { missing, extra, both };
 template <EdgeDifference kind>
@@ -179,8 +195,9 @@ constexpr std::array kRasterCauses = {
     seen(S::depth, "depth.in_perspective",
          "depths are interpolated with perspective, as attributes are; z/w is affine in the window",
          depth_in_perspective),
-    given<[](WindowTriangle<double>& t) { t.v[0].p_win.z = t.v[1].p_win.z = t.v[2].p_win.z; }>(
-        S::depth, "depth.of_last_corner", "every triangle has one depth, its last corner's"),
+    given<depth_of<first>>(S::depth, "depth.of_first_corner", "every triangle has one depth, its first corner's"),
+    given<depth_of<second>>(S::depth, "depth.of_second_corner", "every triangle has one depth, its second corner's"),
+    given<depth_of<last>>(S::depth, "depth.of_last_corner", "every triangle has one depth, its last corner's"),
     given<[](Draw& d) { d.polygon_offset = {}; }>(S::depth, "depth.offset_ignored", "polygon offsets are left out"),
     given<[](Draw& d) { d.polygon_offset.factor = 0; }>(
         S::depth, "depth.offset_without_slope", "a polygon offset is of its units alone: the slope is left out"),
@@ -194,11 +211,18 @@ constexpr std::array kRasterCauses = {
         "error grows with the spread of 1/w in the triangle: affine interpolation, without perspective"),
     given<[](WindowVertex<double>& v) { v.inv_w *= v.inv_w; }>(S::attributes, "attributes.perspective_twice",
                                                                "the perspective is divided out twice"),
-    given<attributes_of<2, 2, 2>>(S::attributes, "attributes.flat", "every triangle has its last corner's attributes"),
-    given<[](Capture& in) {
-      attributes_of<0, 2, 1>(in);
-      change_all(in.records.triangles, [](auto& t) { std::swap(t.v[1].inv_w, t.v[2].inv_w); });
-    }>(S::attributes, "attributes.corners_swapped", "two corners have each other's barycentric coordinates"),
+    given<attributes_of<first, first, first>>(S::attributes, "attributes.of_first_corner",
+                                              "every triangle has its first corner's attributes"),
+    given<attributes_of<second, second, second>>(S::attributes, "attributes.of_second_corner",
+                                                 "every triangle has its second corner's attributes"),
+    given<attributes_of<last, last, last>>(S::attributes, "attributes.of_last_corner",
+                                           "every triangle has its last corner's attributes"),
+    given<weights_swapped<first, last>>(S::attributes, "attributes.outer_corners_swapped",
+                                        "the first and the last corner have each other's barycentric coordinates"),
+    given<weights_swapped<first, second>>(S::attributes, "attributes.first_corners_swapped",
+                                          "the first two corners have each other's barycentric coordinates"),
+    given<weights_swapped<second, last>>(S::attributes, "attributes.last_corners_swapped",
+                                         "the last two corners have each other's barycentric coordinates"),
     given<attributes_of<1, 2, 0>>(S::attributes, "attributes.corners_turned",
                                   "each corner has the next one's attributes"),
     given<attributes_of<2, 0, 1>>(S::attributes, "attributes.corners_turned_back",

@@ -21,8 +21,8 @@ namespace {
 
 using C = Conventions;
 
-// ---- window: exact snaps to 1/256 pixel, and samples at centres. For another grid, the window is magnified about a
-// pixel's centre, exact runs, and its records are scaled back; for another sample the window is moved
+// ---- window: exact snaps to 1/256 pixel, and samples at centres. For another grid, the window is magnified from the
+// frame's corner, exact runs, and its records are scaled back; for another sample the window is moved
 // (capture/by_conventions.h).
 
 constexpr int kFinestBits = 16;       // for renderers without a grid
@@ -61,15 +61,14 @@ Capture window_on_grid(Renderer& referee, const Scene& scene, const Capture& in,
                bias = 0.5 + bias_of(conventions.subpixel_rounding) / kSubpixel;
   Capture magnified = in;
   for (Matrices<double>& m : magnified.records.matrices) {
-    for (int i = 0; i < 2; ++i)
-      m.win_scale[i] *= times, m.win_translate[i] = (m.win_translate[i] - conventions.sample[i]) * times + bias;
+    for (int i = 0; i < 2; ++i) m.win_scale[i] *= times, m.win_translate[i] = m.win_translate[i] * times + bias;
   }
   Capture out = referee.run_stage(scene, Stage::window, magnified);
   for (WindowTriangle<double>& t : out.records.triangles) {
     for (WindowVertex<double>& v : t.v) {
       for (int i = 0; i < 2; ++i) {
-        v.p_win[i] = (v.p_win[i] - bias) / times + 0.5;
-        v.snapped[i] = whole_in_range(snapped(conventions, (v.p_win[i] - 0.5) * kSubpixel));
+        v.p_win[i] = (v.p_win[i] - bias) / times + 0.5 - conventions.sample[i];
+        v.snapped[i] = whole_in_range(snapped(conventions, i, (v.p_win[i] - 0.5) * kSubpixel));
       }
     }
   }
@@ -183,7 +182,7 @@ void move_to_grid(WindowTriangle<double>& t, const C& conventions) {
   const int bits = conventions.subpixel_bits;
   for (WindowVertex<double>& v : t.v) {
     for (int i = 0; i < 2; ++i) {
-      v.p_win[i] = 0.5 + (bits > 8 ? std::ldexp(on_grid(conventions, v.p_win[i]), -bits)
+      v.p_win[i] = 0.5 + (bits > 8 ? std::ldexp(on_grid(conventions, i, v.p_win[i]), -bits) - conventions.sample[i]
                                    : static_cast<double>(v.snapped[i]) / kSubpixel);
     }
   }

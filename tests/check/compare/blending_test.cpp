@@ -102,6 +102,29 @@ TEST_F(TwoLayers, HoldForProductsOfLargeColors) {
   EXPECT_GT(most, 4 * 3 * (1 + 2 * 97)) << "more than colours of at most 1 may have";
 }
 
+// An alpha far above 1: s a + d (1 - a), and the same as d + a (s - d), rounded as a renderer in float rounds them.
+TEST_F(TwoLayers, HoldForMixesBeyondTheirColors) {
+  records.drawn[1].drawn = false;
+  blend_by(BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha);
+  double most = 0;
+  for (float a = 1.25f; a < 110; a *= 1.37f) {
+    const glm::vec4 s(37.3f, 0.41f, 12.7f, a), d(0.7f, 0.3f, 0.1f, 1);
+    scene.frame.clear_color = d;
+    records.shaded[0].color = s;
+    for (int k = 0; k < 3; ++k) {
+      const double exact =
+          static_cast<double>(s[k]) * static_cast<double>(a) + static_cast<double>(d[k]) * (1 - static_cast<double>(a));
+      const float sum = s[k] * a + d[k] * (1 - a), mix = d[k] + a * (s[k] - d[k]);
+      for (const float in_float : {sum, mix}) {
+        const double off = std::abs(static_cast<double>(in_float) - exact) / kU;
+        most = std::max(most, off / roundings());
+        EXPECT_LE(off, roundings()) << a;
+      }
+    }
+  }
+  EXPECT_GT(most, 0.1);
+}
+
 TEST_F(TwoLayers, AreHeldToTheirRoundings) {
   const Plane<double> roundings = blending_roundings(scene, records);
   Planes exact, mine;

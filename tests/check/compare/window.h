@@ -10,7 +10,7 @@ namespace plumbline::check {
 
 // Snapped again from its own position, as stage 4 does.
 inline void snap(WindowVertex<double>& v, const Conventions& grid = {}) {
-  for (int c = 0; c < 2; ++c) v.snapped[c] = static_cast<int>(snapped(grid, (v.p_win[c] - 0.5) * kSubpixel));
+  for (int c = 0; c < 2; ++c) v.snapped[c] = static_cast<int>(snapped(grid, c, (v.p_win[c] - 0.5) * kSubpixel));
 }
 
 // A 96 x 64 frame. Of primitive 0 a triangle; of 2, which was cut, two of a fan of three, whose third has no snapped

@@ -76,6 +76,22 @@ TEST_F(Window, ATriangleThatMayHaveNoAreaMayBeThereOrNot) {
   }
 }
 
+// Half way between whole pixels, counted from the frame's side, a corner may be snapped to either.
+TEST_F(Window, ACornerIsBetweenPlacesOfTheRenderersOwnGrid) {
+  Conventions grid;
+  grid.subpixel_bits = 0;
+  const auto is_between = [&](double x) {
+    WindowTriangle<double> t = records.triangles[0];
+    for (WindowVertex<double>& v : t.v) v.p_win.x = x, v.p_win.y = 2.5 - grid.sample.y;
+    return has_corner_between_places(t, grid, SnappedBy::conventions);
+  };
+  EXPECT_TRUE(is_between(3.5));
+  EXPECT_FALSE(is_between(3));
+  grid.sample = {0, 0.5};
+  EXPECT_TRUE(is_between(4)) << "3.5 before it was moved by 1/2";
+  EXPECT_FALSE(is_between(3.5));
+}
+
 // Half way between two places of a coarse grid there is a second nearest place; elsewhere, and off the grid, none.
 TEST_F(Window, AStrangersSecondNearestPlaceIsOnItsGrid) {
   Conventions grid;

@@ -42,7 +42,10 @@ struct Proof {
 };
 constexpr Proof kProofs[] = {
     {"attributes.affine", "fog/cut", "attributes.affine"},
-    {"attributes.wrong_corners", "texture/borders_at_centres", "attributes.corners_swapped"},
+    {"attributes.wrong_corners", "texture/borders_at_centres", "attributes.outer_corners_swapped"},
+    {"attributes.first_corners_swapped", "texture/borders_at_centres", "attributes.first_corners_swapped"},
+    {"attributes.last_corners_swapped", "texture/borders_at_centres", "attributes.last_corners_swapped"},
+    {"depth.of_first_corner", "depth/interpenetrating", "depth.of_first_corner"},
     {"notes.004.delete_behind_view_plane", "phong/separate_on_a_floor", "clip.cut_dropped"},
     {"clip.no_far_plane", "antialias/taps_fog_cut", "clip.far_not_cut"},
     {"clip.first_vertex_provokes", "notes/gzrender_on_centres", "clip.first_vertex_provokes"},

@@ -1,5 +1,7 @@
 // Row `picture`: the frame as it ships against the one that was watched.
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -56,6 +58,19 @@ TEST(ComparePicture, NoNumberAndAnotherSizeDiffer) {
   EXPECT_EQ(changed([](Planes& p) { p.depth(0, 0) = std::numeric_limits<double>::infinity(); }).differing, 1u);
   EXPECT_EQ(changed([](Planes& p) { p.depth = Plane<double>(2, 3, 1.0); }).differing, 6u);
   EXPECT_EQ(changed([](Planes& p) { p.stencil = {}; }).differing, 1u) << "a plane that is not handed out";
+}
+
+// NaNs whose bits differ in the quiet bit, which conversion to double sets, or in the payload's last bit.
+TEST(ComparePicture, NaNsOfOtherBitsDiffer) {
+  const auto apart = [](std::uint32_t bits, std::uint32_t other) {
+    Planes a = planes(), b = planes();
+    std::memcpy(&a.color(0, 0).r, &bits, sizeof bits);
+    std::memcpy(&b.color(0, 0).r, &other, sizeof other);
+    return compare_picture(kFormat, a, b).differing;
+  };
+  EXPECT_EQ(apart(0x7fa00000, 0x7fa00000), 0u);
+  EXPECT_EQ(apart(0x7fa00000, 0x7fe00000), 1u);
+  EXPECT_EQ(apart(0x7fc00000, 0x7fc00001), 1u);
 }
 
 struct JudgePicture : Judge {

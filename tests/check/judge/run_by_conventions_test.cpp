@@ -276,7 +276,7 @@ TEST_F(ByConventions, WindowTrianglesHaveAnAreaOnTheDeclaredGrid) {
     EXPECT_TRUE(made[0].front);
     for (const WindowVertex<double>& v : made[0].v) {
       EXPECT_NEAR(v.p_win.y, 2.5 + (v.p_win.x == 4 ? 0.45 : 0.3) / 256, 1e-12);
-      EXPECT_EQ(v.snapped.y, static_cast<int>(snapped(c, (v.p_win.y - 0.5) * kSubpixel)));
+      EXPECT_EQ(v.snapped.y, static_cast<int>(snapped(c, 1, (v.p_win.y - 0.5) * kSubpixel)));
     }
   }
   c.sample = {0, 0.25};
@@ -289,6 +289,30 @@ TEST_F(ByConventions, WindowTrianglesHaveAnAreaOnTheDeclaredGrid) {
   EXPECT_EQ(triangles().size(), 0u);
   r.polygons.vertices[2].p_clip.y += 0.3 / 256 / 3 - 0.6 / 256 / 3;
   EXPECT_EQ(triangles().size(), 1u);
+}
+
+// Whole pixels are counted from the frame's side, wherever the sample lies.
+TEST_F(ByConventions, WindowTrianglesLieOnWholePixels) {
+  scene.meshes[0].triangles.resize(1);
+  Records<double>& r = candidate.records;
+  r.matrices.resize(1);
+  r.matrices[0].win_scale = {4, 3, 0.5}, r.matrices[0].win_translate = {4, 3, 0.5};
+  const auto corner = [&](double x, double y) {
+    return ClipVertex<double>{{(x - 4) / 4, (y - 3) / 3, 0, 1}, glm::dvec4(1), false};
+  };
+  r.polygons.vertices = {corner(1.25, 1.25), corner(6.75, 1.25), corner(6.75, 3.75)};
+  r.polygons.polygons = {{0, 0, 3}};
+  C c;
+  c.subpixel_bits = 0;
+  for (const double sample : {0.5, 0.0, 0.25}) {
+    c.sample = glm::dvec2(sample);
+    const auto made = run_by_conventions(*exact, scene, Stage::window, candidate, c).records.triangles;
+    ASSERT_EQ(made.size(), 1u);
+    for (const WindowVertex<double>& v : made[0].v) {
+      const glm::dvec2 own = glm::dvec2(v.snapped) / 256.0 + sample, p = glm::dvec2(v.p_win) - 0.5 + sample;
+      EXPECT_EQ(own, glm::dvec2(p.x < 4 ? 1 : 7, p.y < 2 ? 1 : 4)) << sample;
+    }
+  }
 }
 
 // Alpha 0.5 + 0.0001 is the code of 0.5, and greater in float.
