@@ -124,19 +124,23 @@ FilteredTexel<float> levels_doubled(const TextureSetup& t, const TexCoords<float
   return {pipeline::sample<float>(t, at, lod), lod};
 }
 
-// Two levels mixed with each other's shares.
-FilteredTexel<float> levels_swapped(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
-  FilteredTexel<float> out = pipeline::texture<float>(t, at, g);
-  const auto whole = static_cast<float>(static_cast<int>(out.lod));
-  if (out.lod > t.c && out.lod != whole) out.color = pipeline::sample<float>(t, at, whole + (1 - (out.lod - whole)));
-  return out;
-}
-
 // Texel of that level by the minification filter, whatever lambda is.
 Color<float> minified(const TextureSetup& t, const TexCoords<float>& at, float level) {
   TextureSetup never_magnified = t;
   never_magnified.c = -1;
   return pipeline::sample<float>(never_magnified, at, level);
+}
+
+bool mixes_levels(const TextureSetup& t) {
+  return t.sampler.min == MinFilter::nearest_mipmap_linear || t.sampler.min == MinFilter::linear_mipmap_linear;
+}
+
+// Two levels mixed with each other's shares.
+FilteredTexel<float> levels_swapped(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  FilteredTexel<float> out = pipeline::texture<float>(t, at, g);
+  const float whole = std::floor(out.lod);
+  if (mixes_levels(t) && out.lod > t.c && out.lod != whole) out.color = minified(t, at, 2 * whole + 1 - out.lod);
+  return out;
 }
 
 // Level below lambda, where the minification filter is one of `filters`.

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -43,60 +42,69 @@ bool is_grey(const Plane<glm::vec4>& color, int x, double grey) {
   return off.r < kMost && off.g < kMost && off.b < kMost;
 }
 
+// First and last white column of a row; none: last < first.
+struct Columns {
+  int first = kFrameSize, last = -1;
+};
+Columns white_columns(const Plane<glm::vec4>& color, int row) {
+  Columns out;
+  for (int x = 0; x < kFrameSize; ++x) {
+    if (is_white(color(x, row))) out.first = std::min(out.first, x), out.last = std::max(out.last, x);
+  }
+  return out;
+}
+
+bool is_near_to(int column, int expected) { return std::abs(column - expected) <= 1; }
+
+// The depths at the ends of white columns, where depths go from -1/2 at the left to 3/2 at the right.
+std::string depths_drawn(const Columns& c) {
+  if (c.last < c.first) return "none is drawn: triangles that reach beyond a plane are left out";
+  return fmt::format("those from {:.2f} to {:.2f} are drawn", -0.5 + 2.0 * c.first / kFrameSize,
+                     -0.5 + 2.0 * (c.last + 1) / kFrameSize);
+}
+
 }  // namespace
 
-// A plane of depths from -1/2 at the left to 3/2 at the right.
+// A plane of depths from -1/2 at the left to 3/2 at the right. Of its two triangles one has two corners before the near
+// plane, the other one: between the planes, the lower row lies in the former, the upper row in the latter.
 void learn_clipping(Prober& prober) {
+  constexpr int kLower = kFrameSize / 8, kUpper = 7 * kFrameSize / 8;
   const ConventionWords volume = words_of("clip_depth"), planes = words_of("depth_planes");
   Scene scene = probe_frame("clipping", kFrameSize, kFrameSize);
   add_triangles(
       scene,
       quad({{{{0, 0, -0.5}}, {{kFrameSize, 0, 1.5}}, {{kFrameSize, kFrameSize, 1.5}}, {{0, kFrameSize, -0.5}}}}));
   const Planes left = prober.draw(scene);
-  const Plane<glm::vec4>& color = left.color;
-  int first = kFrameSize, last = -1;
-  for (int x = 0; x < kFrameSize; ++x) {
-    if (!is_white(color(x, kFrameSize / 2))) continue;
-    first = std::min(first, x), last = std::max(last, x);
-  }
-  const auto near_to = [](int column, int expected) { return std::abs(column - expected) <= 1; };
+  const Columns columns = white_columns(left.color, kLower), others = white_columns(left.color, kUpper);
+  const auto [first, last] = columns;
   const bool tested = prober.depth_func != DepthFunc::always;  // depths beyond the cleared one, 1, then fail
-  std::string evidence = "of depths from -0.5 to 1.5 none is drawn: triangles that reach beyond a plane are left out";
-  if (first <= last)
-    evidence = fmt::format("of depths from -0.5 to 1.5, those from {:.2f} to {:.2f} are drawn",
-                           -0.5 + 2.0 * first / kFrameSize, -0.5 + 2.0 * (last + 1) / kFrameSize);
+  std::string evidence = "of depths from -0.5 to 1.5 " + depths_drawn(columns);
   if (first <= last && !left.depth.empty())
-    evidence += fmt::format(", and left as {:.2f} to {:.2f}", left.depth(first, kFrameSize / 2),
-                            left.depth(last, kFrameSize / 2));
+    evidence += fmt::format(", and left as {:.2f} to {:.2f}", left.depth(first, kLower), left.depth(last, kLower));
   C& c = prober.learned.conventions;
-  const bool near_cut = near_to(first, kFrameSize / 4) || near_to(first, kFrameSize / 2),
-             ends_at_far = near_to(last, 3 * kFrameSize / 4 - 1), far_cut = ends_at_far && (near_cut || !tested);
-  const bool known = (near_cut || near_to(first, 0)) && (ends_at_far || near_to(last, kFrameSize - 1));
-  if (!known) {
-    prober.fits_none(volume, evidence);
+  const bool near_cut = is_near_to(first, kFrameSize / 4) || is_near_to(first, kFrameSize / 2),
+             ends_at_far = is_near_to(last, 3 * kFrameSize / 4 - 1), far_cut = ends_at_far && (near_cut || !tested);
+  const bool known = (near_cut || is_near_to(first, 0)) && (ends_at_far || is_near_to(last, kFrameSize - 1));
+  const bool are_alike = is_near_to(first, others.first) && is_near_to(last, others.last);
+  if (!known || !are_alike) {
+    prober.fits_none(volume, are_alike ? evidence : evidence + "; in another triangle " + depths_drawn(others));
     return prober.open(planes, "the view volume is open");
   }
+  const auto depth = [&](int column) { return left.depth(column, kUpper); };
   // At depths of -0.5 and -0.25.
-  const bool is_clamped = near_cut || left.depth.empty() ||
-                          std::abs(left.depth(0, kFrameSize / 2) - left.depth(kFrameSize / 8, kFrameSize / 2)) < 1e-3;
+  const bool is_clamped = near_cut || left.depth.empty() || std::abs(depth(0) - depth(kFrameSize / 8)) < 1e-3;
   // False: pixels at depths 0.25 and 0.75 are left alike, as by a renderer with one depth for the whole rectangle.
   const bool varies =
-      near_cut || left.depth.empty() ||
-      std::abs(left.depth(3 * kFrameSize / 8, kFrameSize / 2) - left.depth(5 * kFrameSize / 8, kFrameSize / 2)) > 0.4;
-  if (!varies) {
-    prober.found(volume, name_of(c.clip_depth), "nothing is cut off before the near plane");
-    return prober.fits_none(planes, "depths are one along the rectangle: " + evidence);
-  }
-  if (!is_clamped) {
-    prober.found(volume, name_of(c.clip_depth), "nothing is cut off before the near plane");
+      near_cut || left.depth.empty() || std::abs(depth(3 * kFrameSize / 8) - depth(5 * kFrameSize / 8)) > 0.4;
+  if (near_cut && is_near_to(first, kFrameSize / 2)) c.clip_depth = C::ClipDepth::zero_to_w;
+  prober.found(volume, name_of(c.clip_depth), near_cut ? evidence : "nothing is cut off before the near plane");
+  if (!varies) return prober.fits_none(planes, "depths are one along the rectangle: " + evidence);
+  if (!is_clamped)
     return prober.fits_none(planes, "depths before the near plane are neither cut nor clamped: " + evidence);
-  }
-  c.clip_depth = near_to(first, kFrameSize / 2) ? C::ClipDepth::zero_to_w : C::ClipDepth::minus_w_to_w;
   c.depth_planes = near_cut || far_cut ? C::DepthPlanes::cut : C::DepthPlanes::clamped;
   if (near_cut != far_cut)
     prober.unexplained(fmt::format("the {} plane cuts, the {} does not", near_cut ? "near" : "far",
                                    near_cut ? "far plane" : "near plane"));
-  prober.found(volume, name_of(c.clip_depth), near_cut ? evidence : "nothing is cut off before the near plane");
   prober.found(planes, name_of(c.depth_planes), evidence);
 }
 
@@ -225,7 +233,7 @@ void learn_corners(Prober& prober) {
   for (int i = 0; i < kRamps; ++i) {
     const double from = 4 * i + 1 + above, first = ends(i).x, last = ends(i).y;
     const auto at = [&](double x, double y, double grey) {
-      return ProbeCorner{{x, y, 0.5}, glm::vec4(glm::vec3(static_cast<float>(grey)), 1), {}};
+      return ProbeCorner{{x, y, kFlatDepth}, glm::vec4(glm::vec3(static_cast<float>(grey)), 1), {}};
     };
     for (const auto& t : quad({at(from, 0, first), at(from + 2, 0, last), at(from + 2, 4, last), at(from, 4, first)}))
       triangles.push_back(t);
@@ -257,12 +265,12 @@ void learn_provoking_vertex(Prober& prober) {
   const auto grey = [](float v) { return glm::vec4(glm::vec3(v), 1); };
   const auto of_corner = [&](double x, double y) {
     return std::array<ProbeCorner, 3>{
-        {{{x, y, 0.5}, grey(first)}, {{16, 0, 0.5}, grey(0.5f)}, {{0, 16, 0.5}, grey(last)}}};
+        {{{x, y, kFlatDepth}, grey(first)}, {{16, 0, kFlatDepth}, grey(0.5f)}, {{0, 16, kFlatDepth}, grey(last)}}};
   };
   const std::array triangles = {of_corner(0, 0), of_corner(16, 16)};
   add_triangles(scene, triangles).shading = Shading::flat;
-  add_triangles(scene, rectangle({16, 0}, {24, 16}, 0.5, grey(first)));
-  add_triangles(scene, rectangle({24, 0}, {32, 16}, 0.5, grey(last)));
+  add_triangles(scene, rectangle({16, 0}, {24, 16}, kFlatDepth, grey(first)));
+  add_triangles(scene, rectangle({24, 0}, {32, 16}, kFlatDepth, grey(last)));
   const Plane<glm::vec4> color = prober.draw(scene).color;
   const float left = color(4, 4).g, turned = color(12, 12).g, of_first = color(18, 8).g, of_last = color(26, 8).g;
   const auto is = [](float drawn, float v) { return std::abs(drawn - v) < 1.5f / 255; };

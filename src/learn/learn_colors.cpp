@@ -33,7 +33,7 @@ const glm::vec4& pixel_of(const Plane<glm::vec4>& color, int i) {
 // Adds a draw of all 256 rectangles, nearer than those of the scene's draws before.
 Draw& add_tiles(Scene& scene, auto color_of) {
   Triangles triangles;
-  const double z = 0.5 - 0.125 * static_cast<double>(scene.draws.size());
+  const double z = kFlatDepth - 0.0625 * static_cast<double>(scene.draws.size());
   for (int i = 0; i < kAll; ++i) {
     for (const auto& t : tile(i, z, color_of(i))) triangles.push_back(t);
   }
@@ -154,10 +154,10 @@ void learn_vertex_colors(Prober& prober) {
     return glm::vec4(glm::dvec3(codes[0], codes[1], codes[2]) / 255.0, 1);
   };
   Scene scene = probe_frame("vertex_colors", kWidth, kHeight);
-  add_triangles(scene, quad({{{{0, 0, 0.5}, color(kLeft)},
-                              {{kWidth, 0, 0.5}, color(kRight)},
-                              {{kWidth, kHeight, 0.5}, color(kRight)},
-                              {{0, kHeight, 0.5}, color(kLeft)}}}));
+  add_triangles(scene, quad({{{{0, 0, kFlatDepth}, color(kLeft)},
+                              {{kWidth, 0, kFlatDepth}, color(kRight)},
+                              {{kWidth, kHeight, kFlatDepth}, color(kRight)},
+                              {{0, kHeight, kFlatDepth}, color(kLeft)}}}));
   const Plane<glm::vec4> left = prober.draw(scene).color;
   int in_float = 0, in_codes = 0, all = 0;
   for (int x = 0; x < kWidth; ++x) {
@@ -182,7 +182,7 @@ void learn_alpha_test(Prober& prober) {
   const ConventionWords words = words_of("alpha_test");
   const auto passes = [&](float alpha, float reference) {
     Scene scene = probe_frame("alpha_test", 16, 16);
-    add_triangles(scene, rectangle({0, 0}, {16, 16}, 0.5, {1, 1, 1, alpha / 255})).alpha_test =
+    add_triangles(scene, rectangle({0, 0}, {16, 16}, kFlatDepth, {1, 1, 1, alpha / 255})).alpha_test =
         AlphaTest{CompareFunc::greater, reference / 255};
     return prober.draw(scene).color(8, 4).r > 0.5f;  // not on the diagonal
   };

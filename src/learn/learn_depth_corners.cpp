@@ -56,13 +56,14 @@ void learn_depth_corners(Prober& prober) {
   if (prober.open_if_any_open(words, {"sample", "subpixel_bits", "subpixel_rounding", "depth_range"})) return;
   const double off = off_grid(c), apart = kRise * off;
   const int column = c.sample.x < 0.25 ? 2 : 1;  // whose sample is in the snapped ramp
+  const int row = c.sample.y < 0.5 ? 1 : 2;      // whose sample is not at height 2, where the ramp's diagonal may be
   const double as_it_is = kFirst + kRise * (column + c.sample.x - 1 - off), snapped = as_it_is + apart;
   Scene scene = ramps(c, off);
   scene.frame.depth = DepthFormat::z24;
   const Plane<double> left = prober.draw_depths(scene);
   std::size_t by_corners = 0, by_grid = 0;
   for (int i = 0; i < kRamps; ++i) {
-    const double z = left(kPeriod * i + column, 2);
+    const double z = left(kPeriod * i + column, row);
     by_corners += std::abs(z - as_it_is) < std::abs(apart) / 3 ? 1 : 0;
     by_grid += std::abs(z - snapped) < std::abs(apart) / 3 ? 1 : 0;
   }

@@ -40,7 +40,7 @@ std::vector<double> depths_of(Prober& prober, const std::string& name, const std
   const Plane<double> plane = prober.draw_depths(scene);
   std::vector<double> out;
   for (std::size_t i = 0; i < depths.size(); ++i)
-    out.push_back(plane(static_cast<int>(4 * (i % 16) + 1), static_cast<int>(4 * (i / 16) + 2)));
+    out.push_back(plane(static_cast<int>(4 * (i % kDepthsInRow) + 1), static_cast<int>(4 * (i / kDepthsInRow) + 2)));
   return out;
 }
 
@@ -108,8 +108,8 @@ void learn_rounding(Prober& prober, const Codes& codes, std::size_t n) {
 }
 
 // Depth format and rounding of a renderer that leaves 24-bit codes where a 24-bit frame asks for them. A 16-bit frame
-// shows the rounding, which float arithmetic hides at 24 bits.
-void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes) {
+// shows the rounding, which float arithmetic hides at 24 bits: from z 1/2 on, floats hold no half of a code.
+void learn_16_bits(Prober& prober, const std::vector<double>& given, const Codes& codes) {
   C& c = prober.learned.conventions;
   const std::size_t n = given.size();
   const auto found = [&](C::Depth format, const std::string& evidence) {
@@ -121,9 +121,8 @@ void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes
     const std::vector<double> left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16);
     const Codes of_16 = codes_of(16, given, left, c.depth_range), still = codes_of(24, given, left, c.depth_range);
     if (of_16.codes == n) {
-      for (std::size_t k = 0; k < codes.fits.size(); ++k) codes.fits[k] += of_16.fits[k];
       found(C::Depth::as_asked, of_24 + ", of 16 bits where those are asked for");
-      return learn_rounding(prober, codes, 2 * n);
+      return learn_rounding(prober, of_16, n);
     }
     if (nearly_all(still.near, n)) {
       found(C::Depth::z24, of_24 + ", where 16 are asked for as well");
@@ -180,7 +179,7 @@ void learn_format(Prober& prober) {
 void learn_rows(Prober& prober) {
   const ConventionWords words = words_of("rows");
   Scene scene = probe_frame("rows", 16, 16);
-  add_triangles(scene, rectangle({0, 0}, {8, 8}, 0.5, glm::vec4(1)));
+  add_triangles(scene, rectangle({0, 0}, {8, 8}, kFlatDepth, glm::vec4(1)));
   const Plane<glm::vec4> color = prober.draw(scene).color;
   std::array<std::size_t, 4> in_quarter{};  // lower left, lower right, upper left, upper right
   for (int y = 0; y < 16; ++y) {

@@ -24,7 +24,7 @@ using Triangles = std::vector<std::array<ProbeCorner, 3>>;
 constexpr int kLong = 1024, kStrip = 4, kStrips = 16;
 
 ProbeCorner corner(int along, double a, double b) {
-  return {along == 0 ? glm::dvec3(a, b, 0.5) : glm::dvec3(b, a, 0.5), glm::vec4(1), {}};
+  return {along == 0 ? glm::dvec3(a, b, kFlatDepth) : glm::dvec3(b, a, kFlatDepth), glm::vec4(1), {}};
 }
 
 // A nearly horizontal edge (`along` 0; else nearly vertical) that starts `offset` above the lower border of its strip's
@@ -166,7 +166,7 @@ double reach_of(Prober& prober, int along, Grid& grid) {
 // The lowest left pixel drawn of a rectangle whose lowest left sample is that of pixel (3, 3).
 glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
   Scene scene = probe_frame("shift", 16, 16);
-  add_triangles(scene, rectangle(sample + 2.75, sample + 9.75, 0.5, glm::vec4(1)));
+  add_triangles(scene, rectangle(sample + 2.75, sample + 9.75, kFlatDepth, glm::vec4(1)));
   const Plane<glm::vec4> color = prober.draw(scene).color;
   constexpr int kHalf = 4;  // of the rectangle's side: single pixels, or its border, do not count
   std::array<int, 16> in_column{}, in_row{};
@@ -192,7 +192,8 @@ void take_far_border(double& sample, double& shift) {
 glm::dvec2 sample_by_diagonal(Prober& prober, glm::dvec2 sample) {
   constexpr int kSize = 16, kLow = 2, kHigh = 13;
   Scene scene = probe_frame("diagonal", kSize, kSize);
-  const std::array<ProbeCorner, 3> triangle = {{{{kLow, kLow, 0.5}}, {{kHigh, kLow, 0.5}}, {{kLow, kHigh, 0.5}}}};
+  const std::array<ProbeCorner, 3> triangle = {
+      {{{kLow, kLow, kFlatDepth}}, {{kHigh, kLow, kFlatDepth}}, {{kLow, kHigh, kFlatDepth}}}};
   add_triangles(scene, std::span(&triangle, 1));
   const Plane<glm::vec4> color = prober.draw(scene).color;
   const auto is_off = [](double v) { return v == 0 || v == 1; };

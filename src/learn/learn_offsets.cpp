@@ -39,7 +39,15 @@ void learn_offset_unit(Prober& prober) {
     const bool codes_of_16 =
         c.depth_format == C::Depth::z16 || (format == DepthFormat::z16 && c.depth_format != C::Depth::z24);
     const double units = codes_of_16 ? 14336 : 14336 * 256, scale = codes_of_16 ? 65535 : 16777215;
-    const double codes = moved_by(prober, "offset_unit", format, 0.75, units) * scale, unit = codes / units;
+    double moved = 0;
+    try {
+      moved = moved_by(prober, "offset_unit", format, 0.75, units);
+    } catch (const Unsupported& error) {
+      if (evidence.empty()) throw;
+      evidence += fmt::format("; depths of 16 bits: {}", error.what());
+      break;
+    }
+    const double codes = moved * scale, unit = codes / units;
     if (!(unit > 0.01))
       return prober.fits_none(kOffsetWords, fmt::format("{} units move a depth by {:.0f} codes", units, codes));
     (format == DepthFormat::z16 ? units_of.y : units_of.x) = std::round(unit * 1e4) / 1e4;

@@ -1,11 +1,8 @@
 // Precision of texture filters, and of colours that are multiplied by texels.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

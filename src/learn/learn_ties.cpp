@@ -46,7 +46,7 @@ FanEdges fan_edges(Prober& prober, glm::dvec2 sample) {
   for (int k = -kRadius; k < kRadius; k += kStep) around.emplace_back(kRadius, k);
   for (std::size_t i = 0; around.size() < 40; ++i) around.emplace_back(-around[i].y, around[i].x);  // a quarter turn on
   const auto at = [&](glm::ivec2 p) {
-    return ProbeCorner{{glm::dvec2(kCentre + p.x, kCentre + p.y) + sample, 0.5}, glm::vec4(1), {}};
+    return ProbeCorner{{glm::dvec2(kCentre + p.x, kCentre + p.y) + sample, kFlatDepth}, glm::vec4(1), {}};
   };
   std::array<Plane<glm::vec4>, 2> color;  // of the triangles of even and of odd numbers, which share no edge
   for (std::size_t odd = 0; odd < 2; ++odd) {

@@ -19,6 +19,9 @@ struct ProbeCorner {
   glm::vec2 texcoord{0};
 };
 
+/// Depth of probes that ask for nothing of it: inside OpenGL's view volume, and inside its far half.
+inline constexpr double kFlatDepth = 0.75;
+
 /// Depth in OpenGL's view volume, [0,1], at which the renderer's view volume yields the depth `z`. The volume [0,w] in
 /// z is the far half of OpenGL's.
 inline double in_volume(const Conventions& conventions, double z) {

@@ -16,7 +16,7 @@ inline Scene textured_frame(const std::string& name, Texture texture, float most
   scene.textures.push_back(std::move(texture));
   const auto at = [&](double x, double y) {
     const glm::dvec2 share = glm::dvec2(x, y) / static_cast<double>(kTexturedSize);
-    return ProbeCorner{{x, y, 0.5}, glm::vec4(1), glm::vec2(least) + (most - least) * glm::vec2(share)};
+    return ProbeCorner{{x, y, kFlatDepth}, glm::vec4(1), glm::vec2(least) + (most - least) * glm::vec2(share)};
   };
   add_triangles(scene, quad({at(0, 0), at(kTexturedSize, 0), at(kTexturedSize, kTexturedSize), at(0, kTexturedSize)}))
       .texture = DrawTexture{0, TextureEnvironment::replace, glm::vec4(0)};

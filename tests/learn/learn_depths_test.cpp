@@ -38,5 +38,20 @@ TEST(LearnDepths, InFloatAreFound) {
   EXPECT_NE(std::ranges::find(none.open, "depth_arithmetic"), none.open.end());
 }
 
+// (unsigned)(z * 16777215.0f + 0.5f): from 1/2 on the product is a whole number, and the sum the even one beside it.
+TEST(LearnDepths, ARoundingThatFloatsHideAt24BitsIsThatOf16) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) { scene.frame.depth = DepthFormat::z32f; };
+  renderer.after = [](const Scene& scene, Capture& c) {
+    const float codes = scene.frame.depth == DepthFormat::z16 ? 65535.0f : 16777215.0f;
+    for (double& z : c.planes.depth.values())
+      z = std::floor(static_cast<float>(z) * codes + 0.5f) / static_cast<double>(codes);
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.depth_rounding, C::Rounding::nearest);
+  EXPECT_EQ(found.depth_format, C::Depth::as_asked);
+  EXPECT_FALSE(std::ranges::count(found.open, "depth_rounding"));
+}
+
 }  // namespace
 }  // namespace plumbline::learn

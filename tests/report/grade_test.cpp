@@ -49,6 +49,23 @@ TEST(Grade, AWholeSceneEarnsAllOrNothing) {
   EXPECT_EQ(grade(kWhole, graded_verdict("clip/a", {})).earned, 0);
 }
 
+// A known difference (--expect) is one; a row that failed says why the scene was not judged.
+TEST(Grade, WhatIsKnownToBeWrongEarnsNothing) {
+  const auto known = graded_verdict("clip/a", {graded_row(Stage::depth, Outcome::equal), [] {
+                                                 check::Comparison c = graded_row(Stage::merge, Outcome::expected);
+                                                 c.measurement.items = 12, c.measurement.differing = 3;
+                                                 return c;
+                                               }()});
+  const SceneGrade whole = grade(kWhole, known), by_stage = grade({"clip/a", 5, {{Stage::merge, 5}}, ""}, known);
+  EXPECT_EQ(whole.earned, 0);
+  EXPECT_EQ(by_stage.earned, 0);
+  EXPECT_TRUE(whole.text.starts_with("wrong, from the stage merge on: ")) << whole.text;
+  EXPECT_TRUE(by_stage.text.starts_with("merge (0 of 5): wrong: ")) << by_stage.text;
+  const SceneGrade failed = grade(kWhole, graded_verdict("clip/a", {graded_row(Stage::depth, Outcome::equal),
+                                                                    graded_row(Stage::merge, Outcome::failed)}));
+  EXPECT_EQ(failed.text, "not judged: 12 pixels\n");
+}
+
 TEST(Grade, ResultsAreGradescopesAndATable) {
   const Rubric rubric{"Homework 1", {kByStage, {"fog/b", 2, {}, ""}}};
   const std::vector verdicts = {graded_verdict("clip/a", {graded_row(Stage::coverage, Outcome::equal)}),
@@ -71,7 +88,7 @@ TEST_F(GradeFile, IsReadAndRefused) {
     return read_rubric(root_ / "rubric.json");
   };
   const Rubric rubric = read_text(
-      R"({"title": "H", "scenes": {"b/c": {"points": 5}, "a/b": {"stages": {"depth": 2, "merge": 3.5}, "hint": "x"}}})");
+      R"({"title": "H", "scenes": {"b/c": {"points":5}, "a/b": {"stages": {"depth": 2, "merge": 3.5}, "hint": "x"}}})");
   ASSERT_EQ(rubric.scenes.size(), 2u);
   EXPECT_EQ(rubric.scenes[0].points, 5.5);
   EXPECT_EQ(rubric.scenes[0].stages[1].first, Stage::merge);

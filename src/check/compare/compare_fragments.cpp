@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <tuple>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "check/diagnose/coverage_differences.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 #include "check/compare/compare_records.h"
 #include "check/compare/window_area.h"

@@ -49,6 +49,11 @@ std::string remark_with_values(const check::Comparison& c) {
                      worst->reference, c.measurement.differing, c.measurement.items);
 }
 
+// Whether a row was compared, differs, and is known to (--expect).
+bool is_known_to_differ(const check::Comparison& c) {
+  return c.outcome == check::Outcome::expected && check::was_compared(c);
+}
+
 // The remark on one stage, and whether its points are earned.
 std::pair<bool, std::string> stage_grade(const check::SceneVerdict& verdict, Stage stage) {
   const check::Comparison* wrong = nullptr;
@@ -57,10 +62,22 @@ std::pair<bool, std::string> stage_grade(const check::SceneVerdict& verdict, Sta
     if (c.stage != stage || !check::votes(c)) continue;
     judged |= check::was_compared(c);
     const bool differs = c.outcome == check::Outcome::different && !check::is_legal(verdict, stage);
-    if (wrong == nullptr && (differs || c.outcome == check::Outcome::failed)) wrong = &c;
+    if (wrong == nullptr && (differs || is_known_to_differ(c) || c.outcome == check::Outcome::failed)) wrong = &c;
   }
   if (wrong != nullptr) return {false, fmt::format("wrong: {}", remark_with_values(*wrong))};
   return {judged, judged ? "right" : "not judged: the program does not show it"};
+}
+
+// The remark on a whole scene that is not right.
+std::string scene_remark(const check::SceneVerdict& verdict) {
+  const auto& rows = verdict.comparisons;
+  if (const check::Comparison* first = first_wrong(verdict))
+    return fmt::format("wrong, from the stage {} on: {}", name_of(first->stage), remark_with_values(*first));
+  if (const auto known = std::ranges::find_if(rows, is_known_to_differ); known != rows.end())
+    return fmt::format("wrong, from the stage {} on: {}", name_of(known->stage), check::remark(*known));
+  const auto failed = std::ranges::find(rows, check::Outcome::failed, &check::Comparison::outcome);
+  const auto why = failed != rows.end() ? failed : rows.begin();
+  return why == rows.end() ? "not judged" : fmt::format("not judged: {}", why->note);
 }
 
 }  // namespace
@@ -89,12 +106,7 @@ SceneGrade grade(const SceneRubric& rubric, const check::SceneVerdict& verdict) 
     const Conformance is = conformance_of(verdict);
     const bool holds = is == Conformance::holds || is == Conformance::legal;
     out.earned = holds ? rubric.points : 0;
-    const check::Comparison* first = first_wrong(verdict);
-    out.text = holds ? "right\n"
-               : first != nullptr
-                   ? fmt::format("wrong, from the stage {} on: {}\n", name_of(first->stage), remark_with_values(*first))
-               : !verdict.comparisons.empty() ? fmt::format("not judged: {}\n", verdict.comparisons.front().note)
-                                              : "not judged\n";
+    out.text = (holds ? "right" : scene_remark(verdict)) + "\n";
   }
   if (out.earned < out.points && !rubric.hint.empty()) out.text += rubric.hint + "\n";
   return out;

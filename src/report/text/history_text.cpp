@@ -1,7 +1,6 @@
 #include "report/text/history_text.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <tuple>
 

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -31,7 +32,7 @@ Numbers codes_or_floats(const Plane<T>& plane, int channels, double scale, doubl
   Numbers out{plane.width(), plane.height(), channels, scale, {}};
   if (scale > 0) each_value(plane, [&](double v) { out.scale = is_code(v, scale, off) ? out.scale : 0; });
   each_value(plane, [&](double v) {
-    out.values.push_back(out.scale > 0 ? static_cast<std::uint32_t>(std::lround(v * scale))
+    out.values.push_back(out.scale > 0 ? static_cast<std::uint32_t>(std::lround(std::clamp(v, 0.0, 1.0) * scale))
                                        : std::bit_cast<std::uint32_t>(static_cast<float>(v)));
   });
   return out;

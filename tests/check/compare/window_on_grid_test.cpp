@@ -105,6 +105,7 @@ TEST_F(Window, AStrangersSecondNearestPlaceIsOnItsGrid) {
   EXPECT_TRUE(passes_at(3, 0));
   EXPECT_FALSE(passes_at(3, 6)) << "as near, and off the grid";
   EXPECT_FALSE(passes_at(3, 16));
+  EXPECT_FALSE(passes_at(7, 16));
   EXPECT_TRUE(passes_at(8, 0));
   EXPECT_TRUE(passes_at(8, 16));
 }
