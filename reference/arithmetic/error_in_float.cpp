@@ -39,7 +39,7 @@ double error_near(const Projected& scene, const Triangle& t, std::span<const glm
   double out = -1;
   each_piece(outline, [&](const std::array<glm::dvec2, 3>& piece) {
     if (distance_to_triangle(glm::dvec2(near.d), piece) > 2 * t.reach + near.margin) return;
-    const double height = altitude(piece[0], piece[1], piece[2]) - 2 * (t.reach - scene.snap);
+    const double height = altitude(piece[0], piece[1], piece[2]) - 2 * (t.reach - t.snap);
     WindowCorners corners;
     for (std::size_t i = 0; i < 3; ++i) {
       double z_view = 0.5 + glm::dot(t.z_plane, glm::dvec3(piece[i], 1));

@@ -1,6 +1,9 @@
 // Fog in double, by the OpenGL 2.1 specification, section 3.10.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include <glm/glm.hpp>
 
 #include "reference/arithmetic/bounded.h"
@@ -11,9 +14,28 @@ namespace plumbline::math {
 /// Fog factor f, in [0,1], at the distance c = |z_eye|, with its error where z_eye has an error of dz. The error, for
 /// density d, is |dz| / |end - start| (linear), d f dz (exp) or d (2 d c + d dz) f dz (exp2), f at the least distance
 /// possible; plus the roundings of the exponential's argument, an absolute error because x exp(-x) <= 1/e.
-Bounded fog_factor(const Fog& fog, Bounded z_eye, const Roundings& roundings);
+inline Bounded fog_factor(const Fog& fog, Bounded z_eye, const Roundings& roundings) {
+  const double c = std::abs(z_eye.value), dz = z_eye.error, density = fog.density, x = density * c;
+  const double start = fog.start, end = fog.end, range = std::abs(end - start);
+  switch (fog.mode) {
+    case Fog::Mode::linear:
+      return {std::clamp((end - c) / (end - start), 0.0, 1.0), dz / range + roundings((std::abs(end) + c) / range)};
+    case Fog::Mode::exp: {
+      const double f = std::exp(-std::max(x - density * dz, 0.0));
+      return {std::exp(-x), f * density * dz + roundings(f * (1 + x))};
+    }
+    case Fog::Mode::exp2: {
+      const double near = std::max(x - density * dz, 0.0), f = std::exp(-near * near);
+      return {std::exp(-x * x), f * (2 * x + density * dz) * density * dz + roundings(f * (1 + 2 * x * x))};
+    }
+  }
+  return {1, 0};
+}
 
 /// The colour in fog: rgb is f C + (1 - f) C_fog, alpha unchanged.
-glm::dvec4 fogged(const Fog& fog, const glm::dvec4& color, double z_eye);
+inline glm::dvec4 fogged(const Fog& fog, const glm::dvec4& color, double z_eye) {
+  const double f = fog_factor(fog, {z_eye, 0}, {0}).value;
+  return {f * glm::dvec3(color) + (1 - f) * glm::dvec3(fog.color), color.a};
+}
 
 }  // namespace plumbline::math

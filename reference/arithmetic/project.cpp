@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <span>
-#include <unordered_map>
 
 #include "capture/float_depth.h"
 #include "capture/stages.h"
@@ -35,88 +33,6 @@ constexpr double kRoundingsOfCuts = 10;
 constexpr double kRoundingsCut = kRoundingsUncut + kRoundingsOfCuts;
 /// Roundings of the scaling and translation to the window, of the window's size: 2, and 2 spare.
 constexpr double kWindowRoundings = 4;
-/// A matrix entry below this is 0 in float (float_matrices()): an error of its whole size, 2^24 roundings.
-constexpr double kZeroEntry = 1e-12;
-
-glm::dmat4 sizes(const glm::dmat4& m) {
-  glm::dmat4 out;
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      const double size = std::abs(m[column][row]);
-      out[column][row] = size < kZeroEntry ? size / kFloatRounding : size;
-    }
-  }
-  return out;
-}
-
-/// Per vertex, the index of the first vertex whose position has the same bits.
-std::vector<std::uint32_t> weld(const Mesh& mesh) {
-  struct Bits {
-    std::uint32_t x, y, z;
-    bool operator==(const Bits&) const = default;
-  };
-  struct Hash {
-    std::size_t operator()(const Bits& b) const {
-      return (b.x * std::size_t{0x9e3779b97f4a7c15}) ^ (b.y * std::size_t{0xc2b2ae3d27d4eb4f}) ^
-             (b.z * std::size_t{0x165667b19e3779f9});
-    }
-  };
-  std::unordered_map<Bits, std::uint32_t, Hash> first;
-  first.reserve(mesh.positions.size());
-  std::vector<std::uint32_t> point;
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    Bits bits;
-    std::memcpy(&bits, &mesh.positions[i], sizeof bits);
-    point.push_back(first.emplace(bits, static_cast<std::uint32_t>(i)).first->second);
-  }
-  return point;
-}
-
-void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
-  const Mesh& mesh = scene.meshes[draw.mesh];
-  const Matrices<double> m = double_matrices(scene, draw);
-  const glm::dmat4 clip = m.projection * m.model_view;
-  if (out.perspective) out.distance_per_w = 1 / std::abs(m.projection[2][3]);
-  const glm::dmat4 clip_size = sizes(m.projection) * sizes(m.model_view);
-  const glm::dvec2 half(0.5 * scene.frame.width, 0.5 * scene.frame.height);
-  const std::vector<std::uint32_t> point = weld(mesh);
-  const bool two = scene.light_model.sides == LightModel::Sides::two, separate = scene.light_model.separate_specular;
-  const auto first = static_cast<std::uint32_t>(out.corners.size());
-  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
-    const glm::dvec4 p(mesh.positions[i], 1);
-    const glm::dvec3 p_eye(m.model_view * p), n_eye = normal_in_eye_space(draw.normals, m.normal, mesh.normals[i]);
-    const glm::dvec4 c = clip * p, size = clip_size * glm::abs(p);
-    Corner corner;
-    corner.v = {c.x * half.x - out.sample.x * c.w, c.y * half.y - out.sample.y * c.w, c.w};
-    corner.z = c.z;
-    corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
-    if (out.conventions.clip_depth == Conventions::ClipDepth::zero_to_w) {  // [0,w] is [-w,w] of 2 z - w
-      corner.z = 2 * c.z - c.w;
-      corner.size.z = 2 * size.z + size.w;
-    }
-    corner.color = vertex_color(scene, draw, out.lights, i, p_eye, n_eye);
-    corner.color_error = color_error(scene, draw, m, out.lights, out.light_errors, i);
-    corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
-    const auto lit_part = [&](LitPart part, glm::dvec4& of_part, double& error) {
-      if (!two && !separate) return;
-      of_part = vertex_color(scene, draw, out.lights, i, p_eye, n_eye, part);
-      error = color_error(scene, draw, m, out.lights, out.light_errors, i, part);
-    };
-    lit_part({true, false}, corner.back_color, corner.back_color_error);
-    lit_part({false, true}, corner.secondary, corner.secondary_error);
-    lit_part({true, true}, corner.back_secondary, corner.back_secondary_error);
-    corner.z_eye = p_eye.z;
-    corner.z_eye_error = 6 * kFloatRounding * (sizes(m.model_view) * glm::abs(p)).z;  // entries, products, sums
-    const BoundedVector place = eye_position(mesh, m, i), normal = eye_normal(draw, mesh, m, i);
-    corner.p_eye = place.v;
-    corner.p_eye_error = place.error;
-    corner.n_eye = normal.v;
-    corner.n_eye_error = normal.error;
-    corner.point = first + point[i];
-    out.corners.push_back(corner);
-  }
-}
-
 /// Errors in float of inside_planes()' distances, for a corner of that size.
 std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& size, double margin, bool deep) {
   const glm::dvec4 error = kRoundingsCut * kFloatRounding * size;
@@ -245,23 +161,55 @@ void set_guarded(const Projected& scene, const std::array<const Corner*, 3>& c, 
   t.guarded = {widths(corners).pieces, {corners.begin(), corners.end()}, 2.0 * farthest, w_min};
 }
 
-void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
-  const std::array<const Corner*, 3> c{&scene.corners[t.corner[0]], &scene.corners[t.corner[1]],
-                                       &scene.corners[t.corner[2]]};
-  // Two corners at one place: zero area in every renderer.
-  if (c[0]->point == c[1]->point || c[1]->point == c[2]->point || c[2]->point == c[0]->point) return;
-  const Polygon part = part_inside(scene, c, 6, t.cut);
-  if (part.count < 3) return;
-  set_planes(c, t);
+std::array<const Corner*, 3> corners_of(const Projected& scene, const Triangle& t) {
+  return {&scene.corners[t.corner[0]], &scene.corners[t.corner[1]], &scene.corners[t.corner[2]]};
+}
+
+/// Sets `cuts` and `cut`: a corner on a plane of the view volume may or may not be cut. True: the near or far plane may.
+bool set_cuts(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   std::array<bool, 6> may_cut{};
-  for (const Corner* corner : c) {  // a corner on a plane of the view volume may or may not be cut
+  for (const Corner* corner : c) {
     const auto inside = inside_planes(scene, *corner, 0, scene.depth_clamp);
     const auto error = plane_errors(scene, corner->size, 0, scene.depth_clamp);
     for (std::size_t p = 0; p < 6; ++p) may_cut[p] |= inside[p] < 4 * error[p];
   }
   t.cuts = static_cast<int>(std::ranges::count(may_cut, true));
   t.cut |= t.cuts > 0;
-  const bool cut_in_depth = may_cut[0] || may_cut[1];
+  return may_cut[0] || may_cut[1];
+}
+
+/// Puts a triangle between copies of its corners on the grid, where the renderer interpolates between these, no plane
+/// cuts it, and the grid leaves its area and facing. Depths stay between the corners as they are where that is declared.
+void move_to_grid(Projected& scene, Triangle& t) {
+  const Conventions& conventions = scene.conventions;
+  const bool goes_by_grid = conventions.attribute_corners == Conventions::Corners::snapped && settles_grid(conventions);
+  if (!goes_by_grid || t.cut) return;
+  const auto corners = on_grid(scene, corners_of(scene, t));
+  if (!corners) return;
+  Triangle moved = t;
+  set_planes({&(*corners)[0], &(*corners)[1], &(*corners)[2]}, moved);
+  if (moved.flat || moved.sign != t.sign) return;
+  if (conventions.depth_corners == Conventions::DepthCorners::as_they_are) moved.z_plane = t.z_plane;
+  moved.on_grid = true;
+  moved.step = moved.snap = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    moved.corner[i] = static_cast<std::uint32_t>(scene.corners.size());
+    scene.corners.push_back((*corners)[i]);
+  }
+  t = moved;
+}
+
+void set_up(Projected& scene, const Draw& draw, Triangle& t) {
+  auto c = corners_of(scene, t);
+  // Two corners at one place: zero area in every renderer.
+  if (c[0]->point == c[1]->point || c[1]->point == c[2]->point || c[2]->point == c[0]->point) return;
+  Polygon part = part_inside(scene, c, 6, t.cut);
+  if (part.count < 3) return;
+  set_planes(c, t);
+  const bool cut_in_depth = set_cuts(scene, c, t);
+  move_to_grid(scene, t);
+  c = corners_of(scene, t);
+  for (std::size_t i = 0; t.on_grid && i < 3; ++i) part.v[i] = c[i]->v;
   t.roundings = t.cut ? kRoundingsCut : kRoundingsUncut;
   t.ahead = true;
   t.z_min = kInfinity;
@@ -325,7 +273,7 @@ glm::dvec2 corner_displacement(const Projected& scene, const Corner& c) {
 
 double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
   const glm::dvec2 stepped(t.stepped, 0);
-  return scene.snap + glm::length(float_displacement(scene, kFloatRounding * t.roundings * t.size, d, w) + stepped);
+  return t.snap + glm::length(float_displacement(scene, kFloatRounding * t.roundings * t.size, d, w) + stepped);
 }
 
 namespace {
@@ -378,16 +326,17 @@ Projected project(const Scene& scene, const Conventions& conventions) {
   out.sample = sample_offset(scene.frame);
   out.to_frame = out.sample - (0.5 - conventions.sample);
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
+  for (const Draw& draw : scene.draws) add_corners(scene, draw, out);
   const std::vector<DrawRange> ranges = ranges_of_draws(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
-    add_corners(scene, draw, out);
     for (const glm::uvec3& indices : scene.meshes[draw.mesh].triangles) {
       Triangle t{};
       for (std::size_t i = 0; i < 3; ++i) {
         t.corner[i] = ranges[d].first_vertex + indices[static_cast<glm::length_t>(i)];
       }
       t.draw = d;
+      t.step = out.step, t.snap = out.snap;
       t.range = draw.depth_range;
       set_up(out, draw, t);
       out.triangles.push_back(t);

@@ -1,6 +1,10 @@
 // Projection of a scene to homogeneous window coordinates, and bounds on displacements by float arithmetic.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
+
 #include <glm/glm.hpp>
 
 #include "reference/arithmetic/projected.h"
@@ -12,6 +16,9 @@ namespace plumbline::math {
 /// (capture/by_conventions.h).
 Projected project(const Scene& scene, const Conventions& conventions = {});
 
+/// Adds the corners of a draw.
+void add_corners(const Scene& scene, const Draw& draw, Projected& out);
+
 /// Error by float arithmetic of the coordinates (X, Y, z_clip, W) of the triangle's point at the ray d, which lies in
 /// the triangle. (Derived in project.cpp.)
 glm::dvec4 clip_error(const Projected& scene, const Triangle& triangle, glm::dvec3 d);
@@ -21,6 +28,15 @@ glm::dvec2 float_displacement(const Projected& scene, const glm::dvec4& error, g
 /// Displacement of a corner by float arithmetic, per axis [pixels]; infinite where the corner is beside or behind the
 /// eye.
 glm::dvec2 corner_displacement(const Projected& scene, const Corner& corner);
+/// Grid points to which a corner may be snapped, from the frame's lower left corner [steps of the grid]; none: unknown.
+struct GridPoints {
+  std::array<glm::dvec2, 4> at;
+  std::size_t count = 0;
+};
+GridPoints grid_points(const Projected& scene, const Corner& corner);
+/// Copies of the corners on the grid; nullopt: one of them may be snapped to several grid points.
+std::optional<std::array<Corner, 3>> on_grid(const Projected& scene, const std::array<const Corner*, 3>& corners);
+
 /// delta [pixels]: displacement by snapping, plus the length of float_displacement() by the largest error of any of the
 /// triangle's points.
 double displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);

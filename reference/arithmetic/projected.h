@@ -48,15 +48,17 @@ struct OffsetBounds {
 struct Triangle {
   std::array<std::uint32_t, 3> corner;  ///< indices into Projected::corners
   std::uint32_t draw = 0;
-  bool drawn = false;        ///< false: no legal renderer draws any of it; members below may not be set
-  bool facing_kept = false;  ///< the draw does not cull its facing in double
-  bool thin = false;         ///< snapping may reverse its facing or make its area 0
-  bool flat = false;         ///< no area in double, and so no plane
-  bool cut = false;          ///< some renderer may cut it at the view volume
-  int cuts = 0;              ///< number of the view volume's planes that may cut it
-  bool ahead = false;        ///< w > 0 at all corners
-  bool loose = false;        ///< float arithmetic may move it anywhere in the window; `flat` is set, too
-  double sign = 0;           ///< of det
+  bool on_grid = false;       ///< its corners lie where every renderer of these conventions snaps them
+  double step = 0, snap = 0;  ///< Projected::step, snap; 0: on_grid
+  bool drawn = false;         ///< false: no legal renderer draws any of it; members below may not be set
+  bool facing_kept = false;   ///< the draw does not cull its facing in double
+  bool thin = false;          ///< snapping may reverse its facing or make its area 0
+  bool flat = false;          ///< no area in double, and so no plane
+  bool cut = false;           ///< some renderer may cut it at the view volume
+  int cuts = 0;               ///< number of the view volume's planes that may cut it
+  bool ahead = false;         ///< w > 0 at all corners
+  bool loose = false;         ///< float arithmetic may move it anywhere in the window; `flat` is set, too
+  double sign = 0;            ///< of det
   std::array<glm::dvec3, 3> n;
   std::array<double, 3> per_pixel;  ///< 1 / |(n_i.x, n_i.y)|: e_i times it is the distance to the edge's line
   glm::dvec3 z_plane;               ///< z_view = 1/2 + z_plane . d: 0 on the near plane, 1 on the far one
@@ -90,7 +92,8 @@ inline double to_window(const Triangle& t, double z_view) {
 /// |d z_win / d z_view|.
 inline double range_scale(const Triangle& t) { return std::abs(double{t.range.far} - double{t.range.near}); }
 
-/// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).
+/// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange). Behind these
+/// corners: copies on the grid, of triangles that are `on_grid`.
 struct Projected {
   int width = 0, height = 0;
   std::vector<LightSource<double>> lights;
@@ -111,6 +114,8 @@ struct Projected {
   std::vector<Corner> corners;
   std::vector<Triangle> triangles;
 
+  /// Place of the renderer's own window that rays are counted from [pixels from the frame's lower left corner].
+  glm::dvec2 middle() const { return to_frame + 0.5 * glm::dvec2(width, height); }
   /// The ray d of a pixel's sample (its centre where there are no samples).
   glm::dvec3 ray(int px, int py) const { return {px + 0.5 - 0.5 * width, py + 0.5 - 0.5 * height, 1}; }
   /// The ray of a pixel's true centre, from that of its sample.

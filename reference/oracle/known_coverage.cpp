@@ -19,27 +19,6 @@ namespace {
 
 using C = Conventions;
 
-/// Grid points to which a corner may snap, from the window's lower left corner [steps of the grid]; none: unknown.
-struct GridPoints {
-  std::array<glm::dvec2, 4> at;
-  std::size_t count = 0;
-};
-GridPoints grid_points(const Projected& scene, const Corner& corner, double steps) {
-  const C::Rounding rounding = scene.conventions.subpixel_rounding;
-  const double before = rounding == C::Rounding::nearest ? 0 : kOfFixedPoint;
-  const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height),
-      off = steps * (corner_displacement(scene, corner) + before);
-  const glm::dvec2 at = steps * (glm::dvec2(corner.v) / corner.v.z + scene.sample + half);
-  GridPoints out;
-  if (!(off.x < 0.5 && off.y < 0.5)) return out;
-  const auto snapped = [&](glm::dvec2 p) { return glm::dvec2(rounded(rounding, p.x), rounded(rounding, p.y)); };
-  const glm::dvec2 low = snapped(at - off), high = snapped(at + off);
-  for (double y = low.y; y <= high.y; ++y) {
-    for (double x = low.x; x <= high.x; ++x) out.at[out.count++] = {x, y};
-  }
-  return out;
-}
-
 bool covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sample, C::TieRule rule) {
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec2 along = sign * (corners[(i + 1) % 3] - corners[i]), from = sample - corners[i];
@@ -50,6 +29,14 @@ bool covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sa
   return true;
 }
 
+// A corner that is on the grid already is not snapped again: rounding down or up may then move it by a step.
+GridPoints points_of(const Projected& scene, const Triangle& t, std::size_t i) {
+  const Corner& corner = scene.corners[t.corner[i]];
+  if (!t.on_grid) return grid_points(scene, corner);
+  const glm::dvec2 at = glm::dvec2(corner.v) / corner.v.z + scene.middle();
+  return {{glm::round(std::ldexp(1.0, scene.conventions.subpixel_bits) * at)}, 1};
+}
+
 }  // namespace
 
 // Edge functions are exact in double: products of grid coordinates of 1/1024 pixel or coarser (settles_ties()).
@@ -57,10 +44,10 @@ std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, in
   const C& c = scene.conventions;
   if (t.flat || t.cut || t.thin || !t.facing_kept || !settles_ties(c)) return std::nullopt;
   const double steps = std::ldexp(1.0, c.subpixel_bits);
-  const glm::dvec2 sample = steps * (glm::dvec2(px, py) + 0.5 + scene.sample);
+  const glm::dvec2 sample = steps * (glm::dvec2(scene.ray(px, py)) + scene.middle());
   std::array<GridPoints, 3> points;
   for (std::size_t i = 0; i < 3; ++i) {
-    points[i] = grid_points(scene, scene.corners[t.corner[i]], steps);
+    points[i] = points_of(scene, t, i);
     if (points[i].count == 0) return std::nullopt;
   }
   std::optional<bool> known;

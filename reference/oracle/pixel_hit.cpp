@@ -69,7 +69,7 @@ bool is_at_side(const PixelSite& site, double delta) {
   const Projected& scene = site.scene;
   const Conventions& c = scene.conventions;
   const bool is_on_grid = c.subpixel_rounding == Conventions::Rounding::nearest;
-  const double off = is_on_grid ? std::max(delta - scene.snap, 0.0) : delta;
+  const double off = is_on_grid ? std::max(delta - site.t.snap, 0.0) : delta;
   const glm::dvec2 from_middle = glm::dvec2(site.d) + scene.to_frame,
                    half = 0.5 * glm::dvec2(scene.width, scene.height);
   const auto takes = [&](double from_side, const glm::dvec2& inward) {
@@ -93,7 +93,12 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   const Projected& scene = site.scene;
   const Triangle& t = site.t;
   const bool clamps = scene.depth_clamp;
-  const double weight = site.snap_weight(out.hit.certain);
+  const Conventions::DepthCorners corners = scene.conventions.depth_corners;
+  // Depths between the corners as they are, in an outline on the grid: the pixel may lie outside of these corners.
+  const bool is_apart = t.on_grid && corners != Conventions::DepthCorners::snapped,
+             is_inside = out.hit.certain && !is_apart;
+  const double step = is_apart ? scene.step : t.step,
+               weight = site.snap_weight(is_inside, is_apart ? scene.snap : t.snap);
   PixelDepth& view = out.view;
   if (t.flat || !std::isfinite(weight)) {
     view.z = t.ahead ? std::clamp(0.5 * (t.z_min + t.z_max), 0.0, 1.0) : 0.5;
@@ -108,15 +113,15 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   view.slope = glm::dvec2(t.z_plane);
   const double corner_error = corner_error_at(site, view.z, clamps);
   const double of_plane = glm::dot(glm::abs(view.slope), weight * site.moved) + weight * corner_error;
-  view.half = of_plane + glm::dot(glm::abs(view.slope), glm::dvec2(scene.step));
+  view.half = of_plane + glm::dot(glm::abs(view.slope), glm::dvec2(step));
   // Cuts by the near or far plane are snapped, whatever the plane of the depths goes through.
   const bool not_cut = clamps || (view.z - view.half > 0 && view.z + view.half < 1);
-  const bool by_grid = scene.conventions.depth_corners != Conventions::DepthCorners::as_they_are;
+  const bool by_grid = corners != Conventions::DepthCorners::as_they_are;
   const double half = by_grid || site.may_turn_over(out.hit.certain && not_cut) ? view.half : of_plane;
   double lo = view.z - half, hi = view.z + half;
   out.may_join_group = out.may_join_group || (t.facing_kept && not_cut);
   // Inside, every plane comes to a convex combination of the corners' depths; outside it may overshoot them.
-  if (out.hit.certain && t.ahead) {
+  if (is_inside && t.ahead) {
     lo = std::max(lo, t.z_min - corner_error);
     hi = std::min(hi, t.z_max + corner_error);
   }
@@ -137,7 +142,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   if (!site.in_reach) return std::nullopt;
   PixelHit out;
   // Rounding may let a triangle seen edge on cover a pixel by its part nearest to the eye.
-  out.delta = t.flat ? t.reach : std::min(t.reach, projected.snap + t.growth * glm::length(site.moved));
+  out.delta = t.flat ? t.reach : std::min(t.reach, t.snap + t.growth * glm::length(site.moved));
   if (!site.inside && !t.loose && site.border > out.delta) return std::nullopt;
   if (is_cut_off(site, out.delta)) return std::nullopt;
   out.hit.primitive = primitive;

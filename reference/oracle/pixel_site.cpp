@@ -102,7 +102,7 @@ void PixelSite::place() {
 
 // A piece covers the pixel only if, in double, it is within `reach`, its displacement by rounding and snapping.
 void PixelSite::find_pieces() {
-  const double moved_by = 2 * (t.reach - scene.snap);
+  const double moved_by = 2 * (t.reach - t.snap);
   const auto thinnest = [&](double of_all, const std::vector<glm::dvec2>& outline) {
     const double here = thinnest_piece(outline, glm::dvec2(d), 2 * t.reach);
     return (std::isfinite(here) ? here : of_all) - moved_by;
@@ -110,14 +110,14 @@ void PixelSite::find_pieces() {
   pieces = {thinnest(t.altitude, t.outline), thinnest(t.guarded.altitude, t.guarded.outline)};
 }
 
-double PixelSite::snap_weight(bool certain) const {
+double PixelSite::snap_weight(bool certain, double snap) const {
   // A plane through vertices displaced by up to delta_E, evaluated at a pixel with barycentrics b' in the displaced
   // triangle, has the value of the point sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel. Inside, the sum
   // is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b' are negative, each
   // by at most the step over the altitude. The pieces of a cut triangle have such borders inside the triangle, too.
   if (certain && !t.cut) return 1;
   const double altitude = pieces.framed;
-  return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
+  return altitude > 0 ? 1 + 4 * snap / altitude : kInfinity;
 }
 
 // Thin pieces of a cut triangle lie at its border.
@@ -126,10 +126,10 @@ bool PixelSite::may_show_either_face(bool certain) const { return t.thin || t.si
 /// snap_weight() for the pixel's centre where the triangle covers a sample: the centre may be outside of the triangle
 /// by the sample's offset.
 double PixelSite::centre_weight(bool certain) const {
-  const double weight = snap_weight(certain), apart = glm::length(scene.sample);
+  const double weight = snap_weight(certain, t.snap), apart = glm::length(scene.sample);
   if (apart == 0) return weight;
-  const double altitude = t.altitude - 2 * (t.reach - scene.snap);
-  return altitude > 0 ? std::max(weight, 1 + 4 * (scene.snap + apart) / altitude) : kInfinity;
+  const double altitude = t.altitude - 2 * (t.reach - t.snap);
+  return altitude > 0 ? std::max(weight, 1 + 4 * (t.snap + apart) / altitude) : kInfinity;
 }
 
 // Without perspective, each edge function is multiplied by its corner's w; not of a triangle that may be cut
@@ -174,7 +174,7 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
   const double value_weight = 1 + (weight - 1) * near_end;
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
-  const glm::dvec2 from_place = weight * moved + (snapped ? weight : may_turn_over(certain) ? 1.0 : 0.0) * scene.step;
+  const glm::dvec2 from_place = weight * moved + (snapped ? weight : may_turn_over(certain) ? 1.0 : 0.0) * t.step;
   // Slopes of numerator and denominator, whose largest values are `most` and 1 times near_end, in units of 1/w here.
   const double of_numerator = most > 0 ? std::hypot(largest(of_x), largest(of_y)) / most : 0,
                of_denominator = std::hypot(n_sum.x, n_sum.y) / std::abs(sum),
@@ -187,7 +187,7 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
 
 double PixelSite::slopes_off() const {
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
-  const double altitude = pieces.framed, by = glm::length(moved) + (snapped ? scene.snap : 0);
+  const double altitude = pieces.framed, by = glm::length(moved) + (snapped ? t.snap : 0);
   const double of_w = t.roundings * kFloatRounding * t.size.w / t.w_min;
   constexpr double kAnything = 1e30;
   return altitude > 0 ? std::min(4 * by / altitude + 4 * of_w + 16 * kFloatRounding, kAnything) : kAnything;

@@ -49,19 +49,19 @@ double on_grid(const Conventions& conventions, int axis, double p_win) {
   return rounded(conventions.subpixel_rounding, in_steps(conventions, axis, p_win));
 }
 
-bool settles_ties(const Conventions& c) {
+bool settles_grid(const Conventions& c) {
   // Edge functions in a frame of 2^15 pixels are exact in double: 2 (15 + 10) + 2 bits.
-  constexpr int kFinest = 10;
+  constexpr int kFinest = 10, kOfRecords = 8;  // window.snapped is in 1/256 pixel
   const auto is_open = [&](const char* name) { return std::ranges::find(c.open, name) != c.open.end(); };
-  if (c.tie_rule == Conventions::TieRule::any || is_open("subpixel_bits") || is_open("subpixel_rounding") ||
-      is_open("sample"))
-    return false;
-  if (c.subpixel_bits < 1 || c.subpixel_bits > kFinest) return false;
+  if (is_open("subpixel_bits") || is_open("subpixel_rounding") || is_open("sample")) return false;
+  if (c.subpixel_bits < 0 || c.subpixel_bits > kFinest) return false;
   const bool is_to_nearest = c.subpixel_rounding == Conventions::Rounding::nearest;
   if (!is_to_nearest && (c.rows != Conventions::Rows::from_bottom || is_open("rows"))) return false;
-  const glm::dvec2 sample = std::ldexp(1.0, c.subpixel_bits) * c.sample;
+  const glm::dvec2 sample = std::ldexp(1.0, std::max(c.subpixel_bits, kOfRecords)) * c.sample;
   return sample == glm::round(sample);
 }
+
+bool settles_ties(const Conventions& c) { return c.tie_rule != Conventions::TieRule::any && settles_grid(c); }
 
 std::vector<std::string> mistaken(const Conventions& conventions) {
   const Conventions expected;

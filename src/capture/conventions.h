@@ -217,8 +217,11 @@ inline constexpr ConventionWords kOffsetWords{"offset_unit", "a polygon offset's
 inline constexpr ConventionWords kFloatOffsetWords{"float_offset_unit", "a polygon offset's unit in depths of floats",
                                                    true};
 
-/// Whether the declared tie rule and grid settle which triangle owns a sample on an edge: subpixel_bits 1 to 10, the
-/// sample on that grid; where rows count from the top, subpixel_rounding nearest (down and up swap in y alone).
+/// Whether the declared grid and sample settle where corners and samples lie: subpixel_bits 0 to 10, the sample at a
+/// multiple of 1/256 pixel or on the grid; where rows count from the top, subpixel_rounding nearest (down and up swap in
+/// y alone).
+bool settles_grid(const Conventions& conventions);
+/// Whether, besides, the declared tie rule settles which triangle owns a sample on an edge.
 bool settles_ties(const Conventions& conventions);
 
 /// Text of a number of bits: "float", or the number.

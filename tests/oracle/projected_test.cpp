@@ -91,6 +91,7 @@ TEST(OracleBounds, OfFragmentsLightHoldForNormalsBetweenSnappedCorners) {
   scene.light_model.ambient = glm::vec3(0);
   C snapped;
   snapped.attribute_corners = C::Corners::snapped, snapped.subpixel_bits = 2;
+  snapped.open = {"subpixel_rounding"};  // else corners on the grid stay where they are
   const auto answer_of = [&](const Scene& of) { return legal(of, snapped).at(10, 10).front(); };
   const LegalAnswer middle = answer_of(scene);
   Scene moved = scene;  // as a grid of 1/4 pixel moves corners: by up to 1/8

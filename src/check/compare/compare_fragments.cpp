@@ -14,6 +14,7 @@
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/shared_edges.h"
+#include "check/compare/window_area.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -199,24 +200,27 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
     const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
     return std::max(by_plane + u, depth_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}, frame));
   };
-  return each_fragment("depths", "step", candidate, candidate.depth.size(), reference.depth.size(),
-                       [&](Meter& meter, std::size_t i) {
-                         const double a = candidate.depth[i], b = reference.depth[i];
-                         const Covered& c = candidate.covered[i];
-                         const double step = depth_step(scene.frame.depth, b);
-                         double apart = difference(a + middle * step, b) / step;
-                         const bool needed = apart > factor && c.triangle < candidate.triangles.size();
-                         if (needed && from_origin > 0) {  // a foreign candidate's
-                           const WindowTriangle<double>& t = candidate.triangles[c.triangle];
-                           const auto [low, high] = std::minmax({b, b + offsets.by_length(t), b + offsets.by_grid(t)});
-                           apart = distance_outside(a + middle * step, low, high) / step;
-                         }
-                         const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
-                         const double allowance = needed ? float_error(candidate.triangles[c.triangle], c) / step : 0;
-                         const Place place{c.x, c.y, c.triangle, "z"};
-                         if (!std::isfinite(rounding + allowance)) return add_open_value(meter, a, place, b);
-                         meter.value(apart, factor + rounding, place, a, b, allowance);
-                       });
+  return each_fragment(
+      "depths", "step", candidate, candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {
+        const double a = candidate.depth[i], b = reference.depth[i];
+        const Covered& c = candidate.covered[i];
+        const double step = depth_step(scene.frame.depth, b);
+        double apart = difference(a + middle * step, b) / step;
+        const bool needed = apart > factor && c.triangle < candidate.triangles.size();
+        // No plane goes through corners on one line, whose samples an inclusive rule takes.
+        if (needed && from_origin > 0 && std::isnan(b) && twice_area(candidate.triangles[c.triangle], kSnapped) == 0)
+          return meter.ambiguous();
+        if (needed && from_origin > 0) {  // a foreign candidate's
+          const WindowTriangle<double>& t = candidate.triangles[c.triangle];
+          const auto [low, high] = std::minmax({b, b + offsets.by_length(t), b + offsets.by_grid(t)});
+          apart = distance_outside(a + middle * step, low, high) / step;
+        }
+        const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
+        const double allowance = needed ? float_error(candidate.triangles[c.triangle], c) / step : 0;
+        const Place place{c.x, c.y, c.triangle, "z"};
+        if (!std::isfinite(rounding + allowance)) return add_open_value(meter, a, place, b);
+        meter.value(apart, factor + rounding, place, a, b, allowance);
+      });
 }
 
 namespace {

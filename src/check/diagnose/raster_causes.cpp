@@ -217,7 +217,7 @@ constexpr std::array kRasterCauses = {
     given<attributes_of<last, last, last>>(S::attributes, "attributes.of_last_corner",
                                            "every triangle has its last corner's attributes"),
     given<weights_swapped<first, last>>(S::attributes, "attributes.outer_corners_swapped",
-                                        "the first and the last corner have each other's barycentric coordinates"),
+                                        "the first and last corner have each other's barycentric coordinates"),
     given<weights_swapped<first, second>>(S::attributes, "attributes.first_corners_swapped",
                                           "the first two corners have each other's barycentric coordinates"),
     given<weights_swapped<second, last>>(S::attributes, "attributes.last_corners_swapped",

@@ -226,13 +226,13 @@ std::string convention_notes(const std::string& file) {
   });
   if (!open.empty()) out += fmt::format("open in {}, and judged as OpenGL's: {}\n", file, fmt::join(open, ", "));
   if (!settles_ties(conventions))
-    out += fmt::format(
-        "not judged: which triangle owns a sample on an edge ({})\n",
-        file.empty() ? "no tie rule is declared: plumb learn"
-        : conventions.tie_rule == Conventions::TieRule::any
-            ? fmt::format("{} declares no tie rule", file)
-            : "a rule is settled by subpixel_bits 1 to 10, the sample on that grid; where rows count from the top, "
-              "subpixel_rounding nearest");
+    out += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
+                       file.empty() ? "no tie rule is declared: plumb learn"
+                       : conventions.tie_rule == Conventions::TieRule::any
+                           ? fmt::format("{} declares no tie rule", file)
+                           : "a rule is settled by subpixel_bits 0 to 10, the sample at whole 1/256 pixels; where rows "
+                             "count from the top, "
+                             "subpixel_rounding nearest");
   return out;
 }
 

@@ -60,6 +60,22 @@ TEST_F(Unbounded, DepthsOfAStrangersSliverAreOpen) {
   EXPECT_TRUE(fails(compared(kFat, 0.3501, 4)));
 }
 
+// No plane goes through corners on one line of the grid, whose samples an inclusive rule takes.
+TEST_F(Unbounded, DepthsWithoutAPlaneAreOpen) {
+  WindowTriangle<double> line = kSliver;
+  for (WindowVertex<double>& v : line.v) v.snapped.y = 20 * 256;
+  const auto compared = [&](const WindowTriangle<double>& t, double mine_z, double theirs_z, double from_origin) {
+    Records<double> theirs = fragment_at({t}, {20, 20}, theirs_z).records, mine = theirs;
+    mine.depth = {mine_z};
+    return compare_depth(scene, mine, theirs, 0.501, {}, from_origin);
+  };
+  EXPECT_TRUE(passes(compared(line, kNaN, kNaN, 4)));
+  EXPECT_EQ(compared(line, 0.25, kNaN, 4).ambiguous, 1u);
+  EXPECT_TRUE(fails(compared(line, 0.25, kNaN, 0))) << "ours";
+  EXPECT_TRUE(fails(compared(kFat, kNaN, kNaN, 4)));
+  EXPECT_TRUE(fails(compared(line, kNaN, 0.25, 4)));
+}
+
 TEST_F(Unbounded, BlendsOfManyLayersAreOpen) {
   scene.frame.color = ColorFormat::rgba32f;
   Planes exact = fragment_at({kFat}, {20, 20}, 0.5).planes;

@@ -1,0 +1,130 @@
+// A scene's corners in double, and on the declared grid (settles_grid()).
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+#include <vector>
+
+#include "reference/arithmetic/bounded.h"
+#include "reference/arithmetic/color_error.h"
+#include "reference/arithmetic/light.h"
+#include "reference/arithmetic/matrices.h"
+#include "reference/arithmetic/project.h"
+
+namespace plumbline::math {
+
+namespace {
+
+/// A matrix entry below this is 0 in float (float_matrices()): an error of its whole size, 2^24 roundings.
+constexpr double kZeroEntry = 1e-12;
+
+glm::dmat4 sizes(const glm::dmat4& m) {
+  glm::dmat4 out;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      const double size = std::abs(m[column][row]);
+      out[column][row] = size < kZeroEntry ? size / kFloatRounding : size;
+    }
+  }
+  return out;
+}
+
+/// Per vertex, the index of the first vertex whose position has the same bits.
+std::vector<std::uint32_t> weld(const Mesh& mesh) {
+  struct Bits {
+    std::uint32_t x, y, z;
+    bool operator==(const Bits&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Bits& b) const {
+      return (b.x * std::size_t{0x9e3779b97f4a7c15}) ^ (b.y * std::size_t{0xc2b2ae3d27d4eb4f}) ^
+             (b.z * std::size_t{0x165667b19e3779f9});
+    }
+  };
+  std::unordered_map<Bits, std::uint32_t, Hash> first;
+  first.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> point;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    Bits bits;
+    std::memcpy(&bits, &mesh.positions[i], sizeof bits);
+    point.push_back(first.emplace(bits, static_cast<std::uint32_t>(i)).first->second);
+  }
+  return point;
+}
+
+double steps_of(const Projected& scene) { return std::ldexp(1.0, scene.conventions.subpixel_bits); }
+
+}  // namespace
+
+void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
+  const Mesh& mesh = scene.meshes[draw.mesh];
+  const Matrices<double> m = double_matrices(scene, draw);
+  const glm::dmat4 clip = m.projection * m.model_view;
+  if (out.perspective) out.distance_per_w = 1 / std::abs(m.projection[2][3]);
+  const glm::dmat4 clip_size = sizes(m.projection) * sizes(m.model_view);
+  const glm::dvec2 half(0.5 * scene.frame.width, 0.5 * scene.frame.height);
+  const std::vector<std::uint32_t> point = weld(mesh);
+  const bool two = scene.light_model.sides == LightModel::Sides::two, separate = scene.light_model.separate_specular;
+  const auto first = static_cast<std::uint32_t>(out.corners.size());
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::dvec4 p(mesh.positions[i], 1);
+    const glm::dvec3 p_eye(m.model_view * p), n_eye = normal_in_eye_space(draw.normals, m.normal, mesh.normals[i]);
+    const glm::dvec4 c = clip * p, size = clip_size * glm::abs(p);
+    Corner corner;
+    corner.v = {c.x * half.x - out.sample.x * c.w, c.y * half.y - out.sample.y * c.w, c.w};
+    corner.z = c.z;
+    corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
+    if (out.conventions.clip_depth == Conventions::ClipDepth::zero_to_w) {  // [0,w] is [-w,w] of 2 z - w
+      corner.z = 2 * c.z - c.w;
+      corner.size.z = 2 * size.z + size.w;
+    }
+    corner.color = vertex_color(scene, draw, out.lights, i, p_eye, n_eye);
+    corner.color_error = color_error(scene, draw, m, out.lights, out.light_errors, i);
+    corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
+    const auto lit_part = [&](LitPart part, glm::dvec4& of_part, double& error) {
+      if (!two && !separate) return;
+      of_part = vertex_color(scene, draw, out.lights, i, p_eye, n_eye, part);
+      error = color_error(scene, draw, m, out.lights, out.light_errors, i, part);
+    };
+    lit_part({true, false}, corner.back_color, corner.back_color_error);
+    lit_part({false, true}, corner.secondary, corner.secondary_error);
+    lit_part({true, true}, corner.back_secondary, corner.back_secondary_error);
+    corner.z_eye = p_eye.z;
+    corner.z_eye_error = 6 * kFloatRounding * (sizes(m.model_view) * glm::abs(p)).z;  // entries, products, sums
+    const BoundedVector place = eye_position(mesh, m, i), normal = eye_normal(draw, mesh, m, i);
+    corner.p_eye = place.v;
+    corner.p_eye_error = place.error;
+    corner.n_eye = normal.v;
+    corner.n_eye_error = normal.error;
+    corner.point = first + point[i];
+    out.corners.push_back(corner);
+  }
+}
+
+GridPoints grid_points(const Projected& scene, const Corner& corner) {
+  const Conventions::Rounding rounding = scene.conventions.subpixel_rounding;
+  const double steps = steps_of(scene), before = rounding == Conventions::Rounding::nearest ? 0 : kOfFixedPoint;
+  const glm::dvec2 off = steps * (corner_displacement(scene, corner) + before);
+  const glm::dvec2 at = steps * (glm::dvec2(corner.v) / corner.v.z + scene.middle());
+  GridPoints out;
+  if (!(off.x < 0.5 && off.y < 0.5)) return out;
+  const auto snapped = [&](glm::dvec2 p) { return glm::dvec2(rounded(rounding, p.x), rounded(rounding, p.y)); };
+  const glm::dvec2 low = snapped(at - off), high = snapped(at + off);
+  for (double y = low.y; y <= high.y; ++y) {
+    for (double x = low.x; x <= high.x; ++x) out.at[out.count++] = {x, y};
+  }
+  return out;
+}
+
+std::optional<std::array<Corner, 3>> on_grid(const Projected& scene, const std::array<const Corner*, 3>& corners) {
+  std::array<Corner, 3> out{*corners[0], *corners[1], *corners[2]};
+  for (Corner& corner : out) {
+    const GridPoints points = grid_points(scene, corner);
+    if (points.count != 1) return std::nullopt;
+    const glm::dvec2 at = points.at[0] / steps_of(scene) - scene.middle();
+    corner.v = {at * corner.v.z, corner.v.z};
+  }
+  return out;
+}
+
+}  // namespace plumbline::math
