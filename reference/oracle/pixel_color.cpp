@@ -154,6 +154,7 @@ class FragmentColor {
   // Each plane that cuts rounds once more.
   double rounding_of_vertex(const BoundedFour& color) const;
   // Half a code, where fragments' colours are codes; else 0.
+  bool is_code(const BoundedFour& color) const;
   double half_code() const;
   // True if the last rounding counts: the colour is blended or encoded. Else the frame rounds a code to itself.
   bool counts_last() const;
@@ -208,9 +209,13 @@ BoundedFour FragmentColor::color() const {
 double FragmentColor::rounding_of_vertex(const BoundedFour& color) const {
   if (!has_codes_of_vertices(scene_.frame, site_.scene.conventions)) return 0;
   const double scale = color_scale(scene_.frame.color);
+  return ((is_code(color) ? 0 : 1) + site_.t.cuts) * 0.5 / scale;
+}
+
+bool FragmentColor::is_code(const BoundedFour& color) const {
+  const double scale = color_scale(scene_.frame.color);
   const glm::dvec4 codes = scale * color.value, off = glm::abs(codes - glm::round(codes));
-  const bool is_code = glm::all(glm::lessThanEqual(off, glm::dvec4(scale * (color.bound + 4 * kFloatRounding))));
-  return ((is_code ? 0 : 1) + site_.t.cuts) * 0.5 / scale;
+  return glm::all(glm::lessThanEqual(off, glm::dvec4(scale * (color.bound + 4 * kFloatRounding))));
 }
 
 double FragmentColor::half_code() const {
@@ -224,6 +229,8 @@ bool FragmentColor::counts_last() const {
 
 void FragmentColor::round(BoundedFour& color, double half, bool has_side) const {
   const double middle = 2 * middle_of(site_.scene.conventions.color_rounding);  // [half codes]
+  // The nearest code of a code is itself. (Rounded down, a code less float's error is the code below.)
+  if (half > 0 && middle == 0 && is_code(color) && color.bound < half / 4) return;
   if (has_side) color.value -= middle * half;
   color.bound += has_side ? half : (1 + std::abs(middle)) * half;
 }

@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "learn/probe_scene.h"
 #include "learn/prober.h"
+#include "learn/ramps.h"
 
 namespace plumbline::learn {
 
@@ -146,9 +149,24 @@ Scene textured_wall() {
   return out;
 }
 
+// How the wall's texture is interpolated; nullopt: the renderer does not draw it so that it tells.
+std::optional<FoundInterpolation> texture_interpolation(Prober& prober) {
+  Scene scene = textured_wall();
+  for (const TextureEnvironment environment : {TextureEnvironment::replace, TextureEnvironment::modulate}) {
+    scene.draws[0].texture->environment = environment;
+    try {
+      const FoundInterpolation found = interpolation_of(prober, scene);
+      return found.explains() ? std::optional(found) : std::nullopt;  // the texture's probes show why
+    } catch (const Unsupported&) {
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-// Where there are no textures, other attributes are taken to be interpolated as colours are.
+// Without a texture, other attributes are taken to be interpolated in perspective, as colours are. But affine colours
+// say nothing of other attributes.
 void learn_interpolation(Prober& prober) {
   const ConventionWords words = words_of("interpolation"), of_colors = words_of("color_interpolation");
   if (prober.open_if_any_open(words, {"color_encoding", kSampleWords.name}) ||
@@ -158,18 +176,19 @@ void learn_interpolation(Prober& prober) {
   const FoundInterpolation colors = interpolation_of(prober, receding_wall("interpolation", 0, 1));
   const std::string evidence = fmt::format("{} of {} pixels", colors.pixels, kFrameSize);
   if (!colors.explains()) return prober.fits_none(words, evidence + " at most are explained");
-  FoundInterpolation others = colors;
-  try {
-    others = interpolation_of(prober, textured_wall());
-  } catch (const Unsupported&) {
+  const std::optional<FoundInterpolation> texture = texture_interpolation(prober);
+  const bool is_unknown = !texture && colors.value == C::Interpolation::affine;
+  if (is_unknown) {
+    prober.open(words, "colours are affine, and no texture is drawn that shows other attributes");
+  } else {
+    const FoundInterpolation& others = texture ? *texture : colors;
+    c.interpolation = others.value;
+    prober.found(words, name_of(c.interpolation), fmt::format("{} of {} pixels", others.pixels, kFrameSize));
   }
-  if (!others.explains()) others = colors;  // the texture's probes show why
-  c.interpolation = others.value;
-  if (colors.value == C::Interpolation::affine && others.value == C::Interpolation::perspective)
+  if (colors.value == C::Interpolation::affine && c.interpolation == C::Interpolation::perspective)
     c.color_interpolation = C::ColorInterpolation::affine;
-  else if (colors.value != others.value)
+  else if (colors.value != c.interpolation)
     prober.unexplained("texture coordinates are interpolated without perspective, colours with it");
-  prober.found(words, name_of(c.interpolation), fmt::format("{} of {} pixels", others.pixels, kFrameSize));
   prober.found(of_colors, name_of(c.color_interpolation), evidence);
 }
 
@@ -205,26 +224,21 @@ void learn_fog(Prober& prober) {
   prober.found(words, name_of(c.fog_factor), evidence);
 }
 
-// Ramps two pixels wide, whose corners lie just under half a step off the grid (just under a whole step by roundings
-// down and up). Unsnapped and snapped corners give a pixel colours on either side of the middle between two codes.
+// Unsnapped and snapped corners give a ramp's pixel colours on either side of the middle between two codes.
 void learn_corners(Prober& prober) {
   constexpr int kRamps = 16;
   const ConventionWords words = words_of("attribute_corners");
   const C& c = prober.learned.conventions;
   if (c.subpixel_bits == C::kFloat) return prober.found(words, "as_they_are", "positions are not snapped");
   if (prober.open_if_any_open(words, {"color_rounding", "sample"})) return;
-  if (c.sample != glm::dvec2(0.5) || c.color_encoding != C::Encoding::linear)
-    return prober.open(words, "another sample or encoding of colours hides it");
-  const double share = c.subpixel_rounding == C::Rounding::down ? 0.98
-                       : c.subpixel_rounding == C::Rounding::up ? -0.98
-                                                                : 0.49,
-               above = std::ldexp(share, -c.subpixel_bits),
-               middle = 60.5 + middle_of(c.color_rounding),  // between two codes
-      rise = c.subpixel_bits < 2 ? 0.45 : 0.9;               // of a ramp; colours stay in [0,1]
+  if (c.color_encoding != C::Encoding::linear) return prober.open(words, "another encoding of colours hides it");
+  const RampPixel pixel = pixel_of_ramp(c);
+  const double above = off_grid(c), rise = c.subpixel_bits < 2 ? 0.45 : 0.9,  // of a ramp; colours stay in [0,1]
+      middle = std::floor(121 * pixel.from_start) + 0.5 + middle_of(c.color_rounding);  // between two codes
   // Ends of ramp i. Where colours of vertices are codes, each ramp rises by another number of codes.
   const bool are_codes = c.vertex_colors == C::ColorNumbers::in_codes;
   const auto ends = [&](int i) {
-    const double first = (middle + i) / 255 - rise * (0.5 - above / 2) / 2;
+    const double first = (middle + i) / 255 - rise * (pixel.from_start - above / 2) / 2;
     if (!are_codes) return glm::dvec2(first, first + rise);
     return glm::dvec2(std::round(255 * first), std::round(255 * (first + rise)) - i) / 255.0;
   };
@@ -240,14 +254,21 @@ void learn_corners(Prober& prober) {
   }
   add_triangles(scene, triangles);
   const Plane<glm::vec4> color = prober.draw(scene).color;
+  // The codes of a value; half a code may go either way.
+  const auto codes_of = [&](double v) {
+    return std::pair(rounded(c.color_rounding, v - 1e-3), rounded(c.color_rounding, v + 1e-3));
+  };
   std::size_t lower = 0, upper = 0, told = 0;
   for (int i = 0; i < kRamps; ++i) {
-    const double code = std::round(255 * static_cast<double>(color(4 * i + 1, 2).r));
+    const double code = std::round(255 * static_cast<double>(color(4 * i + 1 + pixel.column, pixel.row).r));
     const double first = 255 * ends(i).x, slope = 255 * (ends(i).y - ends(i).x) / 2;
-    const double by_corners = rounded(c.color_rounding, first + slope * (0.5 - above)),
-                 by_grid = rounded(c.color_rounding, first + slope * 0.5);
+    const auto by_corners = codes_of(first + slope * (pixel.from_start - above)),
+               by_grid = codes_of(first + slope * pixel.from_start);
     if (by_corners == by_grid) continue;
-    ++told, lower += code == by_corners ? 1 : 0, upper += code == by_grid ? 1 : 0;
+    const auto is_of = [&](const std::pair<double, double>& codes) {
+      return code == codes.first || code == codes.second ? 1u : 0u;
+    };
+    ++told, lower += is_of(by_corners), upper += is_of(by_grid);
   }
   const std::string evidence = fmt::format("{} of {} ramps", std::max(lower, upper), told);
   if (told < 2 || std::max(lower, upper) + 1 < told)

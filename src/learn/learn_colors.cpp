@@ -159,20 +159,32 @@ void learn_vertex_colors(Prober& prober) {
                               {{kWidth, kHeight, kFlatDepth}, color(kRight)},
                               {{0, kHeight, kFlatDepth}, color(kLeft)}}}));
   const Plane<glm::vec4> left = prober.draw(scene).color;
-  int in_float = 0, in_codes = 0, all = 0;
+  // Colours of one vertex show the rounding of vertices; where these are codes, ramps show that of fragments.
+  constexpr std::array kRoundings = {C::Rounding::nearest, C::Rounding::down, C::Rounding::up};
+  std::array<int, kRoundings.size()> in_codes{};
+  int in_float = 0, all = 0;
   for (int x = 0; x < kWidth; ++x) {
     const double share = (x + c.sample.x) / kWidth;
     for (std::size_t k = 0; k < 3; ++k) {
       const double of_floats = glm::mix(kLeft[k], kRight[k], share),
                    of_codes = glm::mix(std::round(kLeft[k]), std::round(kRight[k]), share);
       const double code = std::round(255 * static_cast<double>(left(x, 1)[static_cast<glm::length_t>(k)]));
-      ++all, in_float += code == rounded(c.color_rounding, of_floats),
-          in_codes += code == rounded(c.color_rounding, of_codes);
+      ++all, in_float += code == rounded(c.color_rounding, of_floats) ? 1 : 0;
+      for (std::size_t r = 0; r < kRoundings.size(); ++r)
+        in_codes[r] += code == rounded(kRoundings[r], of_codes) ? 1 : 0;
     }
   }
-  const std::string evidence = fmt::format("{} of {} colours of ramps", std::max(in_float, in_codes), all);
-  if (20 * std::max(in_float, in_codes) < 19 * all) return prober.fits_none(words, evidence + " at most are explained");
-  c.vertex_colors = in_codes > in_float ? C::ColorNumbers::in_codes : C::ColorNumbers::in_float;
+  const bool may_differ = c.color_rounding == C::Rounding::nearest;  // vertices are rounded to the nearest
+  const auto declared = in_codes.begin() + (std::ranges::find(kRoundings, c.color_rounding) - kRoundings.begin()),
+             best = may_differ ? std::ranges::max_element(in_codes) : declared;
+  const int most = std::max(in_float, *best);
+  const std::string evidence = fmt::format("{} of {} colours of ramps", most, all);
+  if (20 * most < 19 * all) return prober.fits_none(words, evidence + " at most are explained");
+  c.vertex_colors = *best > in_float ? C::ColorNumbers::in_codes : C::ColorNumbers::in_float;
+  if (*best > in_float && best != declared) {
+    c.color_rounding = kRoundings[static_cast<std::size_t>(best - in_codes.begin())];
+    prober.found(words_of("color_rounding"), name_of(c.color_rounding), evidence + ", between vertices in codes");
+  }
   prober.found(words, name_of(c.vertex_colors), evidence);
 }
 

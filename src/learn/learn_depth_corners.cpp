@@ -8,6 +8,7 @@
 
 #include "learn/probe_scene.h"
 #include "learn/prober.h"
+#include "learn/ramps.h"
 
 namespace plumbline::learn {
 
@@ -17,15 +18,6 @@ using C = Conventions;
 
 constexpr int kRamps = 16, kPeriod = 4;       // ramps are two pixels wide, one begins every kPeriod pixels
 constexpr double kFirst = 0.2, kRise = 0.25;  // depth at a ramp's beginning; its rise in a pixel
-
-// Distance of a ramp's beginning from its snapped position [pixels]: just under half a step of the grid (rounding to
-// the nearest) or a whole step (rounding down or up).
-double off_grid(const C& c) {
-  const double share = c.subpixel_rounding == C::Rounding::down ? 0.98
-                       : c.subpixel_rounding == C::Rounding::up ? -0.98
-                                                                : 0.49;
-  return std::ldexp(share, -c.subpixel_bits);
-}
 
 Scene ramps(const C& c, double off) {
   Scene scene = probe_frame("depth_corners", kPeriod * kRamps, 4);
@@ -55,15 +47,14 @@ void learn_depth_corners(Prober& prober) {
   }
   if (prober.open_if_any_open(words, {"sample", "subpixel_bits", "subpixel_rounding", "depth_range"})) return;
   const double off = off_grid(c), apart = kRise * off;
-  const int column = c.sample.x < 0.25 ? 2 : 1;  // whose sample is in the snapped ramp
-  const int row = c.sample.y < 0.5 ? 1 : 2;      // whose sample is not at height 2, where the ramp's diagonal may be
-  const double as_it_is = kFirst + kRise * (column + c.sample.x - 1 - off), snapped = as_it_is + apart;
+  const RampPixel pixel = pixel_of_ramp(c);
+  const double as_it_is = kFirst + kRise * (pixel.from_start - off), snapped = as_it_is + apart;
   Scene scene = ramps(c, off);
   scene.frame.depth = DepthFormat::z24;
   const Plane<double> left = prober.draw_depths(scene);
   std::size_t by_corners = 0, by_grid = 0;
   for (int i = 0; i < kRamps; ++i) {
-    const double z = left(kPeriod * i + column, row);
+    const double z = left(kPeriod * i + 1 + pixel.column, pixel.row);
     by_corners += std::abs(z - as_it_is) < std::abs(apart) / 3 ? 1 : 0;
     by_grid += std::abs(z - snapped) < std::abs(apart) / 3 ? 1 : 0;
   }

@@ -144,8 +144,12 @@ void learn_format(Prober& prober) {
   const std::size_t n = given.size();
   const C::DepthRange range = prober.learned.conventions.depth_range;
   const Codes of_16 = codes_of(16, given, left, range), of_24 = codes_of(24, given, left, range);
-  std::size_t is_float = 0;  // multiples of 2^-16 are
-  for (std::size_t i = 0; i < n; ++i) is_float += left[i] == given[i] ? 1 : 0;
+  constexpr double kFourRoundings = 0x1p-22;    // of floats below 1
+  std::size_t is_float = 0, is_near_float = 0;  // multiples of 2^-16 are floats
+  for (std::size_t i = 0; i < n; ++i) {
+    is_float += left[i] == given[i] ? 1 : 0;
+    is_near_float += std::abs(left[i] - given[i]) <= kFourRoundings ? 1 : 0;
+  }
   const auto take = [&](C::Depth found, std::size_t fits, const char* as) {
     prober.learned.conventions.depth_format = found;
     prober.found(format, name_of(found), fmt::format("{} of {} depths are {}", fits, n, as));
@@ -158,8 +162,8 @@ void learn_format(Prober& prober) {
     take(C::Depth::z32f, is_float, "floats");
     return prober.found(rounding, "nearest", "depths are floats");
   }
-  if (nearly_all(of_24.near, n) && !nearly_all(of_24.codes, n)) {
-    take(C::Depth::z32f, of_24.near, "within a code of 24 bits, and no codes: floats");
+  if (nearly_all(is_near_float, n) && !nearly_all(of_24.codes, n)) {
+    take(C::Depth::z32f, is_near_float, "within four roundings of float, and no codes: floats");
     return prober.found(rounding, "nearest", "depths are floats");
   }
   if (nearly_all(of_24.near, n)) return learn_16_bits(prober, given, of_24);

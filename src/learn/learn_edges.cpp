@@ -34,6 +34,18 @@ struct Edge {
   int count;            // samples of the strip's four rows that the triangles cover
 };
 enum class Side { below, above };  // the triangles' side of the edge
+
+// Samples of all columns. Single columns that hold fewer samples than both neighbours count as these: tie rules take
+// samples on a strip's ends, or on the diagonal of its two triangles. Without them, counts grow or fall by one step.
+int without_gaps(const std::vector<int>& counts) {
+  int sum = 0;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const int before = counts[k == 0 ? k + 1 : k - 1], after = counts[k + 1 == counts.size() ? k - 1 : k + 1];
+    sum += std::max(counts[k], std::min(before, after));
+  }
+  return sum;
+}
+
 std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vector<double>& offsets,
                         Side side = Side::below) {
   std::vector<Edge> out;
@@ -54,14 +66,14 @@ std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vecto
     add_triangles(scene, triangles);
     const Plane<glm::vec4> color = prober.draw(scene).color;
     for (std::size_t i = 0; i < n; ++i) {
-      int count = 0;
-      for (int row = 0; row < kStrip; ++row) {
-        for (int k = 0; k < kLong; ++k) {
+      std::vector<int> counts(kLong, 0);
+      for (int k = 0; k < kLong; ++k) {
+        for (int row = 0; row < kStrip; ++row) {
           const int b = kStrip * static_cast<int>(i) + row;
-          count += is_white(along == 0 ? color(k, b) : color(b, k)) ? 1 : 0;
+          counts[static_cast<std::size_t>(k)] += is_white(along == 0 ? color(k, b) : color(b, k)) ? 1 : 0;
         }
       }
-      out.push_back({offsets[first + i], rise, count});
+      out.push_back({offsets[first + i], rise, without_gaps(counts)});
     }
   }
   return out;

@@ -36,7 +36,12 @@ Capture Prober::captured(const Scene& probe) {
 }
 
 void Prober::found(const ConventionWords& words, std::string_view value, std::string evidence) {
-  learned.rows.push_back({std::string(words.name), std::string(value), std::move(evidence)});
+  LearnedRow row{std::string(words.name), std::string(value), std::move(evidence)};
+  const auto earlier = std::ranges::find(learned.rows, words.name, &LearnedRow::name);
+  if (earlier != learned.rows.end())
+    *earlier = std::move(row);
+  else
+    learned.rows.push_back(std::move(row));
 }
 
 void Prober::open(const ConventionWords& words, std::string why) {

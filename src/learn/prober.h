@@ -44,7 +44,7 @@ class Prober {
   /// Depths of draw(). Throws Unsupported where no depth is left.
   Plane<double> draw_depths(const Scene& scene);
 
-  /// Adds a row: the convention's value was found.
+  /// Adds a row: the convention's value was found. Replaces an earlier row of the convention.
   void found(const ConventionWords& words, std::string_view value, std::string evidence);
   /// Adds a row "open": the renderer does not show the convention.
   void open(const ConventionWords& words, std::string why);

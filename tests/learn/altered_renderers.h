@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "faults/faults.h"
 #include "learn/learn.h"
 #include "renderers/pipeline_renderer.h"
 
@@ -31,7 +33,12 @@ class Altered : public Renderer {
   Alter alter_;
 };
 
-// Our renderer on altered scenes; `after` then alters its pictures.
+// Our renderer with a fault.
+inline std::unique_ptr<Renderer> faulted(const std::string& name) {
+  return pipeline::make_pipeline(faults::named(name).stages());
+}
+
+// A renderer, ours by default, on altered scenes; `after` then alters its pictures.
 class OfAlteredScenes : public Renderer {
  public:
   RendererInfo info() const override { return renderer_->info(); }
@@ -42,11 +49,13 @@ class OfAlteredScenes : public Renderer {
     after(scene, out);
     return out;
   }
+  OfAlteredScenes() : renderer_(pipeline::make_pipeline()) {}
+  explicit OfAlteredScenes(std::unique_ptr<Renderer> renderer) : renderer_(std::move(renderer)) {}
   std::function<void(Scene&)> before = [](Scene&) {};
   std::function<void(const Scene&, Capture&)> after = [](const Scene&, Capture&) {};
 
  private:
-  std::unique_ptr<Renderer> renderer_ = pipeline::make_pipeline();
+  std::unique_ptr<Renderer> renderer_;
 };
 
 // Conventions of our renderer.

@@ -92,6 +92,15 @@ TEST(LearnEdges, ASampleAtAWholePixelsBorderIsFound) {
   }
 }
 
+// A sample at a pixel's corner lies on the frame's sides, where probes begin and end: a tie rule may take it from them.
+TEST(LearnEdges, ASampleAtACornerIsFoundWhateverTheTieRule) {
+  OfAlteredScenes renderer(faulted("coverage.top_for_bottom"));
+  renderer.before = [](Scene& scene) { scene.frame.pass.shift += 0.5; };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.sample, glm::dvec2(0));
+  EXPECT_EQ(found.tie_rule, C::TieRule::left_top);
+}
+
 // A tolerance of edge functions moves edges of one side as a sample off the centre would, and those of the other back.
 TEST(LearnEdges, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
   constexpr double kReach = 2.0 / 256;

@@ -77,6 +77,35 @@ TEST(LearnInterpolation, ColoursAloneMayBeAffine) {
   EXPECT_EQ(learned(test::make_affine_colors()), expected);
 }
 
+// Affine colours of a renderer that draws no texture leave other attributes open.
+TEST(LearnInterpolation, AffineColorsSayNothingOfOtherAttributes) {
+  OfAlteredScenes renderer(test::make_affine_colors());
+  renderer.before = [](Scene& scene) {
+    if (!scene.textures.empty()) throw Unsupported("textures");
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.color_interpolation, C::ColorInterpolation::affine);
+  EXPECT_EQ(std::ranges::count(found.open, "interpolation"), 1);
+}
+
+// Colours of vertices are rounded to the nearest codes, those between them down: integers divided by the area.
+TEST(LearnVertexColors, FragmentsMayBeRoundedOtherwise) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) {
+    scene.frame.color = ColorFormat::rgba32f;
+    for (Mesh& mesh : scene.meshes) {
+      for (glm::vec4& color : mesh.colors) color = glm::round(255.0f * color) / 255.0f;
+    }
+  };
+  renderer.after = [](const Scene&, Capture& c) {
+    for (glm::vec4& color : c.planes.color.values()) color = glm::floor(255.0f * color + 0.001f) / 255.0f;
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.vertex_colors, C::ColorNumbers::in_codes);
+  EXPECT_EQ(found.color_rounding, C::Rounding::down);
+  EXPECT_FALSE(std::ranges::count(found.open, "color_rounding"));
+}
+
 TEST(LearnVertexColors, CodesAreFound) {
   C expected = ours();
   expected.vertex_colors = C::ColorNumbers::in_codes;

@@ -15,10 +15,6 @@ namespace {
 
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
-std::unique_ptr<Renderer> faulted(const std::string& name) {
-  return pipeline::make_pipeline(faults::named(name).stages());
-}
-
 TEST(Learn, OurRendererDrawsByTheDialect) {
   const auto renderer = pipeline::make_pipeline();
   const Learned found = learn(*renderer);

@@ -44,6 +44,21 @@ TEST(BlendedFrame, AFloatFrameHoldsTheRoundingsOfBlendingInFloat) {
   EXPECT_GT(beyond_double, 100);
 }
 
+// A clear colour of 127.5 codes: a renderer that rounds fragments down may clear to 128, and blend over that.
+TEST(BlendedFrame, AClearColorMayBeRoundedToTheNearest) {
+  const Merge adds = blending(BlendFactor::one, BlendFactor::one);
+  const auto over = [&](Conventions::Rounding rounding) {
+    FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(0.5f)), Conventions::Blending::in_codes, rounding);
+    color.write(adds, around(glm::dvec4(46 / 255.0), 0));
+    return std::pair(255 * color.written()[0].lo, 255 * color.written()[0].hi);
+  };
+  const auto [low, high] = over(Conventions::Rounding::down);
+  EXPECT_LE(low, 127 + 46 - 0.5);
+  EXPECT_GE(high, 128 + 46 - 0.5);
+  EXPECT_LT(high - low, 6);
+  EXPECT_LT(over(Conventions::Rounding::nearest).second - over(Conventions::Rounding::nearest).first, 5);
+}
+
 // Constants of 76.5 codes: a renderer that blends in codes takes 76 or 77.
 TEST(BlendedFrame, ConstantsAreCodesWhereBlendingIs) {
   Merge merge = blending(BlendFactor::constant_color, BlendFactor::constant_alpha);

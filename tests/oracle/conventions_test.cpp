@@ -37,6 +37,26 @@ TEST(OracleConventions, AnAlphaOfZeroIsZeroInAnyArithmetic) {
   EXPECT_EQ(answers_at(1), 1u);
 }
 
+// A texel that is a code is that code wherever codes are rounded to the nearest. Rounded down, float's error may take
+// it to the code below.
+TEST(OracleConventions, ACodeOfAFragmentIsNotRounded) {
+  Scene scene = window_scene(kOne);
+  scene.frame.color = ColorFormat::rgba8;
+  scene.meshes[0].texcoords.assign(3, glm::vec2(0.5f));
+  scene.textures.emplace_back().levels = {{1, 1, {glm::vec4(1, 0, 128 / 255.0f, 1)}}};
+  scene.textures[0].format = TextureFormat::rgba;
+  scene.draws[0].texture = DrawTexture{0, TextureEnvironment::replace, glm::vec4(0)};
+  const auto bound = [&](C::Rounding rounding, float blue) {
+    scene.textures[0].levels[0].texels[0].b = blue;
+    C codes;
+    codes.fragment_colors = C::ColorNumbers::in_codes, codes.color_rounding = rounding;
+    return 255 * legal(scene, codes).at(14, 12).front().color_bound;
+  };
+  EXPECT_LT(bound(C::Rounding::nearest, 128 / 255.0f), 0.01);
+  EXPECT_GE(bound(C::Rounding::nearest, 128.3f / 255), 0.5);
+  EXPECT_GE(bound(C::Rounding::down, 128 / 255.0f), 0.5);
+}
+
 // A depth of slope 1/30 per pixel: corners that snapping moves by half a step of 1/256 pixel move it by 1/15360 more.
 TEST(OracleConventions, DepthsBetweenCornersAsTheyAreDoNotMoveWithTheGrid) {
   const Scene scene =

@@ -96,13 +96,16 @@ TEST(KnownFaults, AreRoundingsThatConventionsDeclareAndTheRendererDoesNotHave) {
   }
 }
 
-// Frames of an affine renderer, or of another tie rule: what the conventions declare is drawn, and is no fault.
-TEST(KnownFaults, AreDrawnByDeclaredInterpolationAndTies) {
-  C affine, exclusive, inclusive, left_top;
+// Frames of an affine renderer, of another tie rule or of whole pixels: what the conventions declare is drawn, and is no
+// fault.
+TEST(KnownFaults, AreDrawnByDeclaredInterpolationTiesAndWholePixels) {
+  C affine, exclusive, inclusive, left_top, whole_pixels;
   affine.interpolation = C::Interpolation::affine;
   exclusive.tie_rule = C::TieRule::exclusive;
   inclusive.tie_rule = C::TieRule::inclusive;
   left_top.tie_rule = C::TieRule::left_top;
+  whole_pixels.subpixel_bits = 0, whole_pixels.subpixel_rounding = C::Rounding::down;
+  whole_pixels.attribute_corners = C::Corners::snapped;
   struct Case {
     C declared;
     const char *scene, *drawn, *fault;
@@ -111,6 +114,7 @@ TEST(KnownFaults, AreDrawnByDeclaredInterpolationAndTies) {
        {Case{affine, "interpolation/w_ratio", "attributes.affine", "file.mirrored"},
         {exclusive, "coverage/shared_edges", "notes.000.strict_edges", "file.mirrored"},
         {inclusive, "coverage/shared_edges", "coverage.inclusive_edges", "file.mirrored"},
+        {whole_pixels, "interpolation/tiny", "window.whole_pixels", "file.mirrored"},
         {left_top, "notes/gl_on_centres", "coverage.top_for_bottom", "file.mirrored"}}) {
     const Scene scene = suite_scene(name);
     const std::vector<KnownFault> known = known_faults(scene, {});
