@@ -116,14 +116,12 @@ GridPoints grid_points(const Projected& scene, const Corner& corner) {
   return out;
 }
 
-std::optional<std::array<Corner, 3>> on_grid(const Projected& scene, const std::array<const Corner*, 3>& corners) {
-  std::array<Corner, 3> out{*corners[0], *corners[1], *corners[2]};
-  for (Corner& corner : out) {
-    const GridPoints points = grid_points(scene, corner);
-    if (points.count != 1) return std::nullopt;
-    const glm::dvec2 at = points.at[0] / steps_of(scene) - scene.middle();
-    corner.v = {at * corner.v.z, corner.v.z};
-  }
+std::optional<Corner> on_grid(const Projected& scene, const Corner& corner) {
+  const GridPoints points = grid_points(scene, corner);
+  if (points.count != 1) return std::nullopt;
+  const glm::dvec2 at = points.at[0] / steps_of(scene) - scene.middle();
+  Corner out = corner;
+  out.v = {at * corner.v.z, corner.v.z};
   return out;
 }
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "capture/float_depth.h"
 #include "capture/stages.h"
@@ -178,28 +181,52 @@ bool set_cuts(const Projected& scene, const std::array<const Corner*, 3>& c, Tri
   return may_cut[0] || may_cut[1];
 }
 
+/// Copies of a scene's corners on the grid, made when they are first asked for.
+class CornersOnGrid {
+ public:
+  explicit CornersOnGrid(Projected& scene) : scene_(scene), copies_(scene.corners.size()) {}
+  /// Index of the corner's copy in the scene; nullopt: the corner may be snapped to several places.
+  std::optional<std::uint32_t> of(std::uint32_t corner) {
+    Copy& copy = copies_[corner];
+    if (!std::exchange(copy.is_asked_for, true)) {
+      if (const auto placed = on_grid(scene_, scene_.corners[corner])) {
+        copy.index = static_cast<std::uint32_t>(scene_.corners.size());
+        scene_.corners.push_back(*placed);
+      }
+    }
+    return copy.index;
+  }
+
+ private:
+  struct Copy {
+    bool is_asked_for = false;
+    std::optional<std::uint32_t> index;
+  };
+  Projected& scene_;
+  std::vector<Copy> copies_;
+};
+
 /// Puts a triangle between copies of its corners on the grid, where the renderer interpolates between these, no plane
 /// cuts it, and the grid leaves its area and facing. Depths stay between the corners as they are where that is declared.
-void move_to_grid(Projected& scene, Triangle& t) {
+void move_to_grid(const Projected& scene, CornersOnGrid& copies, Triangle& t) {
   const Conventions& conventions = scene.conventions;
   const bool goes_by_grid = conventions.attribute_corners == Conventions::Corners::snapped && settles_grid(conventions);
   if (!goes_by_grid || t.cut) return;
-  const auto corners = on_grid(scene, corners_of(scene, t));
-  if (!corners) return;
   Triangle moved = t;
-  set_planes({&(*corners)[0], &(*corners)[1], &(*corners)[2]}, moved);
+  for (std::uint32_t& corner : moved.corner) {
+    const auto copy = copies.of(corner);
+    if (!copy) return;
+    corner = *copy;
+  }
+  set_planes(corners_of(scene, moved), moved);
   if (moved.flat || moved.sign != t.sign) return;
   if (conventions.depth_corners == Conventions::DepthCorners::as_they_are) moved.z_plane = t.z_plane;
   moved.on_grid = true;
   moved.step = moved.snap = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    moved.corner[i] = static_cast<std::uint32_t>(scene.corners.size());
-    scene.corners.push_back((*corners)[i]);
-  }
   t = moved;
 }
 
-void set_up(Projected& scene, const Draw& draw, Triangle& t) {
+void set_up(const Projected& scene, const Draw& draw, CornersOnGrid& copies, Triangle& t) {
   auto c = corners_of(scene, t);
   // Two corners at one place: zero area in every renderer.
   if (c[0]->point == c[1]->point || c[1]->point == c[2]->point || c[2]->point == c[0]->point) return;
@@ -207,7 +234,7 @@ void set_up(Projected& scene, const Draw& draw, Triangle& t) {
   if (part.count < 3) return;
   set_planes(c, t);
   const bool cut_in_depth = set_cuts(scene, c, t);
-  move_to_grid(scene, t);
+  move_to_grid(scene, copies, t);
   c = corners_of(scene, t);
   for (std::size_t i = 0; t.on_grid && i < 3; ++i) part.v[i] = c[i]->v;
   t.roundings = t.cut ? kRoundingsCut : kRoundingsUncut;
@@ -327,6 +354,7 @@ Projected project(const Scene& scene, const Conventions& conventions) {
   out.to_frame = out.sample - (0.5 - conventions.sample);
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
   for (const Draw& draw : scene.draws) add_corners(scene, draw, out);
+  CornersOnGrid copies(out);
   const std::vector<DrawRange> ranges = ranges_of_draws(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
@@ -338,7 +366,7 @@ Projected project(const Scene& scene, const Conventions& conventions) {
       t.draw = d;
       t.step = out.step, t.snap = out.snap;
       t.range = draw.depth_range;
-      set_up(out, draw, t);
+      set_up(out, draw, copies, t);
       out.triangles.push_back(t);
     }
   }

@@ -34,8 +34,8 @@ struct GridPoints {
   std::size_t count = 0;
 };
 GridPoints grid_points(const Projected& scene, const Corner& corner);
-/// Copies of the corners on the grid; nullopt: one of them may be snapped to several grid points.
-std::optional<std::array<Corner, 3>> on_grid(const Projected& scene, const std::array<const Corner*, 3>& corners);
+/// The corner on the grid; nullopt: it may be snapped to several grid points.
+std::optional<Corner> on_grid(const Projected& scene, const Corner& corner);
 
 /// delta [pixels]: displacement by snapping, plus the length of float_displacement() by the largest error of any of the
 /// triangle's points.
