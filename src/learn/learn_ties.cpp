@@ -38,15 +38,29 @@ struct FanEdges {
   std::array<std::size_t, 4> by_rule;  // of samples.one, how many each of kRules gives to their triangle
 };
 
-// Samples on the edges of a fan of 40 triangles: straight, diagonal, and of 1/5 to 4/5 pixel a row or column. Float
-// rounds these slopes, so that edges that are stepped lie on either side of their samples.
-FanEdges fan_edges(Prober& prober, glm::dvec2 sample) {
-  constexpr int kFan = 64, kCentre = 32, kRadius = 30, kStep = 6;
+// A fan about a hub, out to a square of side 2 radius, whose edges pass through samples.
+struct Fan {
+  glm::dvec2 hub;  ///< from the lower left corner of the pixel in the middle [pixels]
+  int radius;      ///< [pixels]
+  double first;    ///< place of an edge's first sample, of equal parts from the hub to the square
+};
+// Hub at a sample: edges are straight, diagonal, and of 1/5 to 4/5 pixel a row or column. Float rounds these slopes, so
+// that edges that are stepped lie on either side of their samples.
+Fan through_samples(glm::dvec2 sample) { return {sample, 30, 1}; }
+// Whole pixels, and samples at centres: edges to corners that are an odd number of pixels away in x and in y pass
+// through centres half way. No level or upright edge does.
+constexpr Fan kThroughCentres{glm::dvec2(0), 27, 0.5};
+
+// Samples on the edges of a fan, of 40 triangles or 36.
+FanEdges fan_edges(Prober& prober, const Fan& fan) {
+  constexpr int kFan = 64, kCentre = 32, kStep = 6;
   std::vector<glm::ivec2> around;
-  for (int k = -kRadius; k < kRadius; k += kStep) around.emplace_back(kRadius, k);
-  for (std::size_t i = 0; around.size() < 40; ++i) around.emplace_back(-around[i].y, around[i].x);  // a quarter turn on
+  for (int k = -fan.radius; k < fan.radius; k += kStep) around.emplace_back(fan.radius, k);
+  const std::size_t all = 4 * around.size();
+  for (std::size_t i = 0; around.size() < all; ++i)
+    around.emplace_back(-around[i].y, around[i].x);  // a quarter turn on
   const auto at = [&](glm::ivec2 p) {
-    return ProbeCorner{{glm::dvec2(kCentre + p.x, kCentre + p.y) + sample, kFlatDepth}, glm::vec4(1), {}};
+    return ProbeCorner{{glm::dvec2(kCentre + p.x, kCentre + p.y) + fan.hub, kFlatDepth}, glm::vec4(1), {}};
   };
   std::array<Plane<glm::vec4>, 2> color;  // of the triangles of even and of odd numbers, which share no edge
   for (std::size_t odd = 0; odd < 2; ++odd) {
@@ -65,8 +79,8 @@ FanEdges fan_edges(Prober& prober, glm::dvec2 sample) {
   for (std::size_t i = 0; i < around.size(); ++i) {  // between triangles i - 1 and i
     const glm::ivec2 to = around[i];
     const int parts = std::gcd(to.x, to.y);
-    for (int k = 1; k < parts; ++k) {
-      const glm::ivec2 pixel = kCentre + to / parts * k;
+    for (double k = fan.first; k < parts; ++k) {
+      const glm::ivec2 pixel = glm::floor(static_cast<double>(kCentre) + k * glm::dvec2(to / parts));
       const bool mine = is_white(color[i % 2](pixel.x, pixel.y)), before = is_white(color[1 - i % 2](pixel.x, pixel.y));
       const auto count = [&](Samples& s) { ++(mine != before ? s.one : mine ? s.both : s.none); };
       count(out.samples);
@@ -85,16 +99,18 @@ void learn_ties(Prober& prober) {
   C& c = prober.learned.conventions;
   if (prober.open_if_any_open(words, {kSampleWords.name})) return;
   const double steps = c.subpixel_bits == C::kFloat ? 1024 : std::ldexp(1.0, c.subpixel_bits);
-  if (c.sample * steps != glm::round(c.sample * steps)) {
+  const bool is_between = c.subpixel_bits == 0 && c.sample == glm::dvec2(0.5);
+  if (!is_between && c.sample * steps != glm::round(c.sample * steps)) {
     return prober.open(words, "no edge can be laid through a sample: its place is not on the grid");
   }
-  const auto [samples, straight, by_rule] = fan_edges(prober, c.sample);
+  const auto [samples, straight, by_rule] = fan_edges(prober, is_between ? kThroughCentres : through_samples(c.sample));
   const std::size_t best = static_cast<std::size_t>(std::ranges::max_element(by_rule) - by_rule.begin());
   std::string evidence =
       fmt::format("{} of {} samples on a fan's edges are in one triangle", samples.one, samples.all());
   if (samples.one == samples.all()) {
     c.tie_rule = by_rule[best] == samples.one ? kRules[best] : C::TieRule::any;
     evidence += fmt::format(", {} by {}", by_rule[best], name_of(kRules[best]));
+    if (is_between) evidence += "; no level edge passes through a sample";
     if (c.tie_rule == C::TieRule::any)
       evidence += ": no rule: edges stepped in float, or a rule by the order of corners";
   } else if (straight.both == straight.all() && samples.none == 0) {

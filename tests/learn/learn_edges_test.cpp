@@ -53,6 +53,7 @@ TEST(LearnEdges, AGridOfWholePixelsIsFoundWithItsRounding) {
     EXPECT_EQ(c.sample, glm::dvec2(0.5));
     EXPECT_EQ(c.attribute_corners, C::Corners::snapped) << "attributes go by the moved positions";
     EXPECT_EQ(c.depth_corners, C::DepthCorners::snapped) << "depths go by the moved positions";
+    EXPECT_EQ(c.tie_rule, C::TieRule::left_bottom) << "diagonals pass through centres";
   }
   EXPECT_EQ(floored.subpixel_rounding, C::Rounding::down);
   EXPECT_EQ(raised.subpixel_rounding, C::Rounding::up);
