@@ -58,6 +58,11 @@ Conventions read_conventions(const std::filesystem::path& path) {
   each_number_of_bits([&](const ConventionWords& words, auto member) {
     if (const auto node = root.find(words.name)) out.*member = bits_at(*node);
   });
+  for (const char* corners : {"attribute_corners", "depth_corners"}) {
+    const auto node = root.find(corners);
+    if (out.subpixel_bits == Conventions::kFloat && node && node->text() == "snapped")
+      node->refuse("another value than snapped: subpixel_bits is \"float\", nothing is snapped");
+  }
   if (const auto node = root.find("open")) {
     for (const JsonNode& name : node->elements(0, names.size())) {
       if (std::ranges::find(names, name.text()) == names.end()) name.refuse("the name of a convention");
