@@ -209,9 +209,10 @@ std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
   return unknown == 0 ? out : out + fmt::format("wrong, and no known fault matches: {}\n", unknown);
 }
 
-// Line on scenes that are unable, by reason. Scenes that the program did not refuse are named, up to ten.
-std::string unable_line(std::span<const check::SceneVerdict> verdicts) {
-  constexpr std::size_t kNamed = 10;
+// Lines on scenes that are unable, one for each of the most frequent reasons. Scenes that the program did not refuse are
+// named, up to ten.
+std::string unable_lines(std::span<const check::SceneVerdict> verdicts) {
+  constexpr std::size_t kNamed = 10, kReasons = 12;
   Counts reasons;
   std::map<std::string, std::vector<std::string>> named;
   for (const check::SceneVerdict& verdict : verdicts) {
@@ -220,15 +221,22 @@ std::string unable_line(std::span<const check::SceneVerdict> verdicts) {
     ++reasons[reason];
     if (!is_refused_by_program(verdict)) named[reason].push_back(verdict.scene);
   }
-  std::vector<std::string> words;
+  std::string out;
+  std::size_t shown = 0, others = 0;
   for (const auto& [reason, count] : by_count(reasons)) {
-    words.push_back(fmt::format("{} {}", reason, count));
+    if (shown++ >= kReasons) {
+      others += count;
+      continue;
+    }
+    out += fmt::format("unable: {} {}", reason, count);
     const std::vector<std::string>& scenes = named[reason];
-    if (scenes.empty()) continue;
-    words.back() += fmt::format(" ({}{})", fmt::join(std::span(scenes).first(std::min(scenes.size(), kNamed)), ", "),
-                                scenes.size() > kNamed ? ", ..." : "");
+    if (!scenes.empty())
+      out += fmt::format(" ({}{})", fmt::join(std::span(scenes).first(std::min(scenes.size(), kNamed)), ", "),
+                         scenes.size() > kNamed ? ", ..." : "");
+    out += "\n";
   }
-  return words.empty() ? "" : fmt::format("unable: {}\n", fmt::join(words, ", "));
+  if (others > 0) out += fmt::format("unable: for {} other reasons {} (--verbose)\n", shown - kReasons, others);
+  return out;
 }
 
 }  // namespace
@@ -241,7 +249,7 @@ std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
     out +=
         fmt::format(kRow, t.feature, t.holds, t.legal, t.known, t.differs, t.failed, t.unable, counted(t.first_wrong));
   }
-  return out + unable_line(verdicts) + not_judged_line(verdicts) + further_line(verdicts) + frame_line(verdicts) +
+  return out + unable_lines(verdicts) + not_judged_line(verdicts) + further_line(verdicts) + frame_line(verdicts) +
          cause_lines(verdicts);
 }
 
@@ -253,7 +261,7 @@ std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) 
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(t.feature), t.holds, t.legal, t.known,
                        t.differs, t.failed, t.unable, cell(counted(t.first_wrong)));
   }
-  return out + "\n" + cell(unable_line(verdicts) + not_judged_line(verdicts)) + "\n\n" +
+  return out + "\n" + cell(unable_lines(verdicts) + not_judged_line(verdicts)) + "\n\n" +
          cell(further_line(verdicts) + frame_line(verdicts) + cause_lines(verdicts)) + "\n";
 }
 
