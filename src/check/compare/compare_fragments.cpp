@@ -206,7 +206,7 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
         const Covered& c = candidate.covered[i];
         const double step = depth_step(scene.frame.depth, b);
         double apart = difference(a + middle * step, b) / step;
-        const bool needed = apart > factor && c.triangle < candidate.triangles.size();
+        const bool needed = !(apart <= factor) && c.triangle < candidate.triangles.size();
         // No plane goes through corners on one line, whose samples an inclusive rule takes.
         if (needed && from_origin > 0 && std::isnan(b) && twice_area(candidate.triangles[c.triangle], kSnapped) == 0)
           return meter.ambiguous();

@@ -110,8 +110,9 @@ std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::sp
     WindowAnswer answer = answer_of(primitive, 3, 1, three[0], three[1], three[2]);
     const bool front = most > 0, back = least < 0;
     answer.has_no_area = area.least == 0 && area.most == 0;
-    answer.front = answer.has_no_area || (front && !is_culled(draw.cull, true));
-    answer.back = answer.has_no_area || (back && !is_culled(draw.cull, false));
+    const bool may_have_none = of == FacingArea::either ? area.least <= 0 && area.most >= 0 : answer.has_no_area;
+    answer.front = may_have_none || (front && !is_culled(draw.cull, true));
+    answer.back = may_have_none || (back && !is_culled(draw.cull, false));
     answer.absent = (least <= 0 && most >= 0) || answer.front != front || answer.back != back;
     out.push_back(answer);
   }

@@ -55,6 +55,9 @@ TEST_F(Window, AStrangersTriangleMayHaveAnAreaByRoundingTwice) {
     add_polygon(records, 3, {t.v[2], t.v[0], t.v[1]});
     const Records<double> exact = on_grid(records, grid, false);
     Records<double> mine = on_grid(records, grid, true);
+    mine.triangles.back().front = false;
+    EXPECT_TRUE(passes(compare_window(scene, mine, exact, kFactor, grid, 0, FacingArea::either))) << steps;
+    mine.triangles.back().front = true;
     for (WindowVertex<double>& v : mine.triangles.back().v) v.snapped.y += v.p_win.y == high && may_have_area ? 16 : 0;
     const auto passes_now = [&] {
       return passes(compare_window(scene, mine, exact, kFactor, grid, 0, FacingArea::either));
