@@ -151,7 +151,7 @@ double of_edges(const Projected& scene, std::span<const glm::dvec2> outline) {
 void set_guarded(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   bool cut = false;
   const Polygon part = part_inside(scene, c, 2, cut);
-  std::array<glm::dvec2, kMostCorners> p_window;
+  std::array<glm::dvec2, kMostCorners> p_window{};
   glm::dvec2 farthest(0.5 * scene.width, 0.5 * scene.height);
   double w_min = kInfinity;
   for (std::size_t i = 0; i < part.count; ++i) {
@@ -168,7 +168,8 @@ std::array<const Corner*, 3> corners_of(const Projected& scene, const Triangle& 
   return {&scene.corners[t.corner[0]], &scene.corners[t.corner[1]], &scene.corners[t.corner[2]]};
 }
 
-/// Sets `cuts` and `cut`: a corner on a plane of the view volume may or may not be cut. True: the near or far plane may.
+/// Sets `cuts` and `cut`, of the planes that may cut off a corner; a plane that a corner lies on may. Returns true if
+/// the near or the far plane is among them.
 bool set_cuts(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   std::array<bool, 6> may_cut{};
   for (const Corner* corner : c) {
@@ -206,37 +207,9 @@ class CornersOnGrid {
   std::vector<Copy> copies_;
 };
 
-/// Puts a triangle between copies of its corners on the grid, where the renderer interpolates between these, no plane
-/// cuts it, and the grid leaves its area and facing. Depths stay between the corners as they are where that is declared.
-void move_to_grid(const Projected& scene, CornersOnGrid& copies, Triangle& t) {
-  const Conventions& conventions = scene.conventions;
-  const bool goes_by_grid = conventions.attribute_corners == Conventions::Corners::snapped && settles_grid(conventions);
-  if (!goes_by_grid || t.cut) return;
-  Triangle moved = t;
-  for (std::uint32_t& corner : moved.corner) {
-    const auto copy = copies.of(corner);
-    if (!copy) return;
-    corner = *copy;
-  }
-  set_planes(corners_of(scene, moved), moved);
-  if (moved.flat || moved.sign != t.sign) return;
-  if (conventions.depth_corners == Conventions::DepthCorners::as_they_are) moved.z_plane = t.z_plane;
-  moved.on_grid = true;
-  moved.step = moved.snap = 0;
-  t = moved;
-}
-
-void set_up(const Projected& scene, const Draw& draw, CornersOnGrid& copies, Triangle& t) {
-  auto c = corners_of(scene, t);
-  // Two corners at one place: zero area in every renderer.
-  if (c[0]->point == c[1]->point || c[1]->point == c[2]->point || c[2]->point == c[0]->point) return;
-  Polygon part = part_inside(scene, c, 6, t.cut);
-  if (part.count < 3) return;
-  set_planes(c, t);
-  const bool cut_in_depth = set_cuts(scene, c, t);
-  move_to_grid(scene, copies, t);
-  c = corners_of(scene, t);
-  for (std::size_t i = 0; t.on_grid && i < 3; ++i) part.v[i] = c[i]->v;
+/// Sets what follows from a triangle's planes and its visible part.
+void set_extent(const Projected& scene, const Draw& draw, const std::array<const Corner*, 3>& c, const Polygon& part,
+                bool cut_in_depth, Triangle& t) {
   t.roundings = t.cut ? kRoundingsCut : kRoundingsUncut;
   t.ahead = true;
   t.z_min = kInfinity;
@@ -246,7 +219,7 @@ void set_up(const Projected& scene, const Draw& draw, CornersOnGrid& copies, Tri
     t.z_min = std::min(t.z_min, 0.5 + 0.5 * corner->z / corner->v.z);
     t.z_max = std::max(t.z_max, 0.5 + 0.5 * corner->z / corner->v.z);
   }
-  std::array<glm::dvec2, kMostCorners> p_window;
+  std::array<glm::dvec2, kMostCorners> p_window{};
   t.w_min = kInfinity;
   glm::dvec3 farthest(0, 0, 1);
   for (std::size_t i = 0; i < part.count; ++i) {
@@ -270,6 +243,38 @@ void set_up(const Projected& scene, const Draw& draw, CornersOnGrid& copies, Tri
   const bool front = t.sign > 0;
   t.facing_kept = draw.cull == Cull::none || front == (draw.cull == Cull::back);
   t.drawn = t.facing_kept || t.thin;
+}
+
+void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
+  const std::array<const Corner*, 3> c = corners_of(scene, t);
+  // Two corners at one place: zero area in every renderer.
+  if (c[0]->point == c[1]->point || c[1]->point == c[2]->point || c[2]->point == c[0]->point) return;
+  const Polygon part = part_inside(scene, c, 6, t.cut);
+  if (part.count < 3) return;
+  set_planes(c, t);
+  const bool cut_in_depth = set_cuts(scene, c, t);
+  set_extent(scene, draw, c, part, cut_in_depth, t);
+}
+
+/// The triangle between its corners' places on the grid, for a renderer that interpolates between these. nullopt: a
+/// place is open, a plane may cut the triangle, or float or the grid may change its area or facing.
+std::optional<Triangle> on_grid(const Projected& scene, const Draw& draw, CornersOnGrid& copies, const Triangle& t) {
+  const Conventions& conventions = scene.conventions;
+  const bool goes_by_grid = conventions.attribute_corners == Conventions::Corners::snapped && settles_grid(conventions);
+  const bool has_area = t.drawn && !t.flat && t.altitude > 2 * (t.reach - t.snap);
+  if (!goes_by_grid || t.cut || !has_area) return std::nullopt;
+  Triangle out = t;
+  out.step = out.snap = 0;
+  for (std::uint32_t& corner : out.corner) {
+    const auto copy = copies.of(corner);
+    if (!copy) return std::nullopt;
+    corner = *copy;
+  }
+  const std::array<const Corner*, 3> c = corners_of(scene, out);
+  set_planes(c, out);
+  if (out.flat || out.sign != t.sign) return std::nullopt;
+  set_extent(scene, draw, c, {{c[0]->v, c[1]->v, c[2]->v}, 3}, false, out);
+  return out.thin ? std::nullopt : std::optional(out);
 }
 
 }  // namespace
@@ -366,7 +371,11 @@ Projected project(const Scene& scene, const Conventions& conventions) {
       t.draw = d;
       t.step = out.step, t.snap = out.snap;
       t.range = draw.depth_range;
-      set_up(out, draw, copies, t);
+      set_up(out, draw, t);
+      if (auto copy = on_grid(out, draw, copies, t)) {
+        t.on_grid = static_cast<std::uint32_t>(out.on_grid.size());
+        out.on_grid.push_back(std::move(*copy));
+      }
       out.triangles.push_back(t);
     }
   }

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -48,8 +49,9 @@ struct OffsetBounds {
 struct Triangle {
   std::array<std::uint32_t, 3> corner;  ///< indices into Projected::corners
   std::uint32_t draw = 0;
-  bool on_grid = false;       ///< its corners lie where every renderer of these conventions snaps them
-  double step = 0, snap = 0;  ///< Projected::step, snap; 0: on_grid
+  std::optional<std::uint32_t>
+      on_grid;                ///< index into Projected::on_grid; none: a corner may have several places there
+  double step = 0, snap = 0;  ///< Projected::step, snap; of a copy on the grid 0
   bool drawn = false;         ///< false: no legal renderer draws any of it; members below may not be set
   bool facing_kept = false;   ///< the draw does not cull its facing in double
   bool thin = false;          ///< snapping may reverse its facing or make its area 0
@@ -92,8 +94,8 @@ inline double to_window(const Triangle& t, double z_view) {
 /// |d z_win / d z_view|.
 inline double range_scale(const Triangle& t) { return std::abs(double{t.range.far} - double{t.range.near}); }
 
-/// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange). Behind these
-/// corners: copies on the grid, of triangles that are `on_grid`.
+/// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange). After these
+/// corners come their copies on the grid.
 struct Projected {
   int width = 0, height = 0;
   std::vector<LightSource<double>> lights;
@@ -113,11 +115,19 @@ struct Projected {
   glm::dvec2 to_frame{0};
   std::vector<Corner> corners;
   std::vector<Triangle> triangles;
+  /// Copies of triangles between their corners' places on the declared grid, for renderers that interpolate between
+  /// these: coverage and attributes of such triangles go by the copy.
+  std::vector<Triangle> on_grid;
 
   /// Place of the renderer's own window that rays are counted from [pixels from the frame's lower left corner].
   glm::dvec2 middle() const { return to_frame + 0.5 * glm::dvec2(width, height); }
   /// The ray d of a pixel's sample (its centre where there are no samples).
   glm::dvec3 ray(int px, int py) const { return {px + 0.5 - 0.5 * width, py + 0.5 - 0.5 * height, 1}; }
+  /// The triangle that coverage and attributes of a primitive go by.
+  const Triangle& covering(std::uint32_t primitive) const {
+    const Triangle& t = triangles[primitive];
+    return t.on_grid ? on_grid[*t.on_grid] : t;
+  }
   /// The ray of a pixel's true centre, from that of its sample.
   glm::dvec3 to_centre(glm::dvec3 d) const { return d - glm::dvec3(sample, 0); }
 };

@@ -29,11 +29,12 @@ bool covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sa
   return true;
 }
 
-// A corner that is on the grid already is not snapped again: rounding down or up may then move it by a step.
+// Grid points of a triangle's corner. Those of a copy on the grid are not snapped again: down or up, the rounding of
+// v / w would move them by a step.
 GridPoints points_of(const Projected& scene, const Triangle& t, std::size_t i) {
-  const Corner& corner = scene.corners[t.corner[i]];
-  if (!t.on_grid) return grid_points(scene, corner);
-  const glm::dvec2 at = glm::dvec2(corner.v) / corner.v.z + scene.middle();
+  if (!t.on_grid) return grid_points(scene, scene.corners[t.corner[i]]);
+  const Corner& copy = scene.corners[scene.on_grid[*t.on_grid].corner[i]];
+  const glm::dvec2 at = glm::dvec2(copy.v) / copy.v.z + scene.middle();
   return {{glm::round(std::ldexp(1.0, scene.conventions.subpixel_bits) * at)}, 1};
 }
 
@@ -42,7 +43,8 @@ GridPoints points_of(const Projected& scene, const Triangle& t, std::size_t i) {
 // Edge functions are exact in double: products of grid coordinates of 1/1024 pixel or coarser (settles_ties()).
 std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, int px, int py) {
   const C& c = scene.conventions;
-  if (t.flat || t.cut || t.thin || !t.facing_kept || !settles_ties(c)) return std::nullopt;
+  const bool is_thin = t.thin && !t.on_grid;
+  if (t.flat || t.cut || is_thin || !t.facing_kept || !settles_ties(c)) return std::nullopt;
   const double steps = std::ldexp(1.0, c.subpixel_bits);
   const glm::dvec2 sample = steps * (glm::dvec2(scene.ray(px, py)) + scene.middle());
   std::array<GridPoints, 3> points;

@@ -153,8 +153,9 @@ class FragmentColor {
   // Error of a corner's colour by rounding to a code; 0 where vertex colours are no codes, or this one is already.
   // Each plane that cuts rounds once more.
   double rounding_of_vertex(const BoundedFour& color) const;
-  // Half a code, where fragments' colours are codes; else 0.
+  // True if each channel may be a code, by the colour's bound.
   bool is_code(const BoundedFour& color) const;
+  // Half a code, where fragments' colours are codes; else 0.
   double half_code() const;
   // True if the last rounding counts: the colour is blended or encoded. Else the frame rounds a code to itself.
   bool counts_last() const;
@@ -328,7 +329,7 @@ void set_color(const Scene& scene, const PixelSite& site, PixelHit& hit) {
 
 void color_hit(const Scene& scene, const Projected& projected, int px, int py, PixelHit& hit) {
   if (hit.colored) return;
-  set_color(scene, PixelSite(projected, projected.triangles[hit.hit.primitive], px, py), hit);
+  set_color(scene, PixelSite(projected, projected.covering(hit.hit.primitive), px, py), hit);
   hit.colored = true;
 }
 

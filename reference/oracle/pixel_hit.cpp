@@ -88,17 +88,13 @@ bool is_at_cut(const PixelSite& site, bool at_diagonal, double delta) {
 }
 
 /// Sets the depth interval: the plane's z at the pixel, displaced by up to h + delta_E (depth_corners may be snapped)
-/// or delta_E (as_they_are), plus the corners' depth error.
-void set_depth(const PixelSite& site, PixelHit& out) {
+/// or delta_E (as_they_are), plus the corners' depth error. `is_inside`: every legal renderer covers the pixel with the
+/// triangle's inside.
+void set_depth(const PixelSite& site, bool is_inside, PixelHit& out) {
   const Projected& scene = site.scene;
   const Triangle& t = site.t;
   const bool clamps = scene.depth_clamp;
-  const Conventions::DepthCorners corners = scene.conventions.depth_corners;
-  // Depths between the corners as they are, in an outline on the grid: the pixel may lie outside of these corners.
-  const bool is_apart = t.on_grid && corners != Conventions::DepthCorners::snapped,
-             is_inside = out.hit.certain && !is_apart;
-  const double step = is_apart ? scene.step : t.step,
-               weight = site.snap_weight(is_inside, is_apart ? scene.snap : t.snap);
+  const double weight = site.snap_weight(is_inside, t.snap);
   PixelDepth& view = out.view;
   if (t.flat || !std::isfinite(weight)) {
     view.z = t.ahead ? std::clamp(0.5 * (t.z_min + t.z_max), 0.0, 1.0) : 0.5;
@@ -113,10 +109,10 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   view.slope = glm::dvec2(t.z_plane);
   const double corner_error = corner_error_at(site, view.z, clamps);
   const double of_plane = glm::dot(glm::abs(view.slope), weight * site.moved) + weight * corner_error;
-  view.half = of_plane + glm::dot(glm::abs(view.slope), glm::dvec2(step));
+  view.half = of_plane + glm::dot(glm::abs(view.slope), glm::dvec2(t.step));
   // Cuts by the near or far plane are snapped, whatever the plane of the depths goes through.
   const bool not_cut = clamps || (view.z - view.half > 0 && view.z + view.half < 1);
-  const bool by_grid = corners != Conventions::DepthCorners::as_they_are;
+  const bool by_grid = scene.conventions.depth_corners != Conventions::DepthCorners::as_they_are;
   const double half = by_grid || site.may_turn_over(out.hit.certain && not_cut) ? view.half : of_plane;
   double lo = view.z - half, hi = view.z + half;
   out.may_join_group = out.may_join_group || (t.facing_kept && not_cut);
@@ -128,6 +124,17 @@ void set_depth(const PixelSite& site, PixelHit& out) {
   out.hit.certain = out.hit.certain && not_cut;
   set_window_depth(t, clamps, {view.z, half, view.slope}, lo, hi, weight, error_in_float(scene, t, site.d, site.pieces),
                    out);
+}
+
+/// Whether the primitive covers the pixel, by its grid and tie rule, or by an outline on the grid that passes farther
+/// from the sample than float may move it; nullopt: open.
+std::optional<bool> coverage_of(const Projected& scene, const Triangle& t, const PixelSite& covering) {
+  const std::optional<bool> known = known_coverage(scene, t, covering.pixel.x, covering.pixel.y);
+  if (known || !t.on_grid || !t.facing_kept) return known;
+  if (!covering.in_reach) return false;
+  if (covering.border <= std::min(covering.t.reach, covering.t.growth * glm::length(covering.moved)))
+    return std::nullopt;
+  return covering.inside;
 }
 
 }  // namespace
@@ -156,16 +163,19 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   // Two triangles whose shared edge a side plane cuts may round the new corner, down or up, to different grid points.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.may_join_group = t.facing_kept && !t.flat && !t.cut;
-  set_depth(site, out);
+  const PixelSite covering(projected, projected.covering(primitive), px, py);
+  if (!out.hit.certain) out.covers = coverage_of(projected, t, covering);
+  const bool is_by_grid =
+      t.on_grid && covering.in_reach && projected.conventions.depth_corners == Conventions::DepthCorners::snapped;
+  set_depth(is_by_grid ? covering : site, out.hit.certain || (is_by_grid && out.covers == true), out);
   out.covered_inside = out.hit.certain;
   out.may_join_group = out.may_join_group && !apart && !at_cut;
   const PixelDepth& view = out.view;
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
     return std::nullopt;
   out.colored = colors == Colors::now || scene.draws[t.draw].alpha_test.has_value();
-  if (out.colored) set_color(scene, site, out);
+  if (out.colored) set_color(scene, covering, out);
   set_tests(scene.draws[t.draw], t, scene.frame, projected.conventions, out);
-  if (!out.hit.certain) out.covers = known_coverage(projected, t, px, py);
   out.inside = out.covers.value_or(site.by_ties && site.inside && t.facing_kept) &&
                (scene.depth_clamp || (view.z >= 0 && view.z <= 1));
   return out;

@@ -48,7 +48,8 @@ class ServerProgram {
   ServerProgram& operator=(const ServerProgram&) = delete;
 
   /// Sends a line and returns the program's answer, a line without its end. None where the program ended, took longer
-  /// than the time limit, answered beyond kLongestAnswer, or wrote before it was asked: it is killed then, and end() says why.
+  /// than the time limit, answered beyond kLongestAnswer, or wrote before it was asked: it is killed then, and end()
+  /// says why.
   std::optional<std::string> ask(const std::string& line);
   /// After an ask() without an answer.
   const ProgramEnd& end() const { return end_; }

@@ -218,8 +218,8 @@ inline constexpr ConventionWords kFloatOffsetWords{"float_offset_unit", "a polyg
                                                    true};
 
 /// Whether the declared grid and sample settle where corners and samples lie: subpixel_bits 0 to 10, the sample at a
-/// multiple of 1/256 pixel or on the grid; where rows count from the top, subpixel_rounding nearest (down and up swap in
-/// y alone).
+/// multiple of 1/256 pixel or on the grid; where rows count from the top, subpixel_rounding nearest (down and up swap
+/// in y alone).
 bool settles_grid(const Conventions& conventions);
 /// Whether, besides, the declared tie rule settles which triangle owns a sample on an edge.
 bool settles_ties(const Conventions& conventions);

@@ -233,14 +233,18 @@ void learn_corners(Prober& prober) {
   if (prober.open_if_any_open(words, {"color_rounding", "sample"})) return;
   if (c.color_encoding != C::Encoding::linear) return prober.open(words, "another encoding of colours hides it");
   const RampPixel pixel = pixel_of_ramp(c);
-  const double above = off_grid(c), rise = c.subpixel_bits < 2 ? 0.45 : 0.9,  // of a ramp; colours stay in [0,1]
-      middle = std::floor(121 * pixel.from_start) + 0.5 + middle_of(c.color_rounding);  // between two codes
+  const double above = off_grid(c), by_corners_at = pixel.from_start - above;  // [pixels]
+  // Colours stay in [0, 1] between the ramp's ends, and at the pixel as the corners as they are extrapolate to it.
+  const double lowest = std::min(0.0, by_corners_at), highest = std::max(2.0, by_corners_at);
+  const double rise = std::min(115.0, 230 / (highest - lowest)),  // [codes a pixel]
+      half_way = pixel.from_start - above / 2,
+               middle =
+                   std::floor(4 + rise * (half_way - lowest)) + 0.5 + middle_of(c.color_rounding);  // between two codes
   // Ends of ramp i. Where colours of vertices are codes, each ramp rises by another number of codes.
   const bool are_codes = c.vertex_colors == C::ColorNumbers::in_codes;
   const auto ends = [&](int i) {
-    const double first = (middle + i) / 255 - rise * (pixel.from_start - above / 2) / 2;
-    if (!are_codes) return glm::dvec2(first, first + rise);
-    return glm::dvec2(std::round(255 * first), std::round(255 * (first + rise)) - i) / 255.0;
+    const double first = middle + i - rise * half_way, last = first + 2 * rise;
+    return are_codes ? glm::dvec2(std::round(first), std::round(last) - i) / 255.0 : glm::dvec2(first, last) / 255.0;
   };
   Scene scene = probe_frame("attribute_corners", kFrameSize, 4);
   std::vector<std::array<ProbeCorner, 3>> triangles;

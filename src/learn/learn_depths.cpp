@@ -162,7 +162,9 @@ void learn_format(Prober& prober) {
     take(C::Depth::z32f, is_float, "floats");
     return prober.found(rounding, "nearest", "depths are floats");
   }
-  if (nearly_all(is_near_float, n) && !nearly_all(of_24.codes, n)) {
+  const auto are_codes_of = [&](int bits) { return nearly_all(codes_of(bits, given, left, range).codes, n); };
+  const bool are_codes = std::ranges::any_of(std::array{17, 18, 19, 20, 21, 22, 23, 24}, are_codes_of);
+  if (nearly_all(is_near_float, n) && !are_codes) {
     take(C::Depth::z32f, is_near_float, "within four roundings of float, and no codes: floats");
     return prober.found(rounding, "nearest", "depths are floats");
   }

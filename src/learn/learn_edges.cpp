@@ -35,8 +35,9 @@ struct Edge {
 };
 enum class Side { below, above };  // the triangles' side of the edge
 
-// Samples of all columns. Single columns that hold fewer samples than both neighbours count as these: tie rules take
-// samples on a strip's ends, or on the diagonal of its two triangles. Without them, counts grow or fall by one step.
+// Sum of the columns' samples. A column that holds fewer than both its neighbours (the first and the last: than its one
+// neighbour) counts as the lower of these: tie rules take samples on a strip's ends, or on the diagonal of its two
+// triangles. Without them, counts grow or fall by one step.
 int without_gaps(const std::vector<int>& counts) {
   int sum = 0;
   for (std::size_t k = 0; k < counts.size(); ++k) {

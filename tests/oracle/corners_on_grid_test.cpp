@@ -91,6 +91,29 @@ TEST(CornersOnGrid, LeaveDepthsBetweenCornersAsTheyAre) {
   EXPECT_GE(hi, std::max(own_hi, snapped_hi));
 }
 
+// The corners of a neighbour may have several places; the edge that it shares has one. No background shows through it.
+TEST(CornersOnGrid, LeaveNoCrackBesideAnOpenNeighbour) {
+  const glm::vec3 a(4.3f, 3.7f, 0.5f), shared(16.2f, 15.1f, 0.5f), b(6.4f, 28.6f, 0.5f);
+  for (const float far : {27.4f, 27.5f}) {
+    C c = whole_pixels(C::Rounding::nearest, 0.5);
+    c.tie_rule = C::TieRule::any;
+    const std::vector<std::array<glm::vec3, 3>> both = {{a, shared, b}, {shared, glm::vec3(far, 20.3f, 0.5f), b}};
+    const Legal by = legal(window_scene(both), c);
+    std::size_t near_edge = 0;
+    for (int y = 17; y < 26; ++y) {
+      for (int x = 9; x < 16; ++x) {
+        const double from_edge = 14 * (x + 0.5 - 16) + 10 * (y + 0.5 - 15);  // from (16, 15) to (6, 29)
+        if (std::abs(from_edge) > 24) continue;
+        ++near_edge;
+        const auto answers = by.at(x, y);
+        EXPECT_TRUE(std::ranges::none_of(answers, [](const LegalAnswer& l) { return l.primitive == kBackground; }))
+            << x << "," << y << " " << far;
+      }
+    }
+    EXPECT_GT(near_edge, 20u);
+  }
+}
+
 // What the grid leaves open: a corner half way between two places, and a grid that is not known.
 TEST(CornersOnGrid, AreNoneWhereTheirPlacesAreOpen) {
   const auto open = [](const Scene& scene, const C& c) { return open_pixels(legal(scene, c)); };

@@ -64,6 +64,11 @@ TEST(Grade, WhatIsKnownToBeWrongEarnsNothing) {
   const SceneGrade failed = grade(kWhole, graded_verdict("clip/a", {graded_row(Stage::depth, Outcome::equal),
                                                                     graded_row(Stage::merge, Outcome::failed)}));
   EXPECT_EQ(failed.text, "not judged: 12 pixels\n");
+  const SceneGrade lacking = grade(
+      kWhole, graded_verdict(
+                  "clip/a", {check::not_judged("clip/a", {"exact", Kind::from_scene}, Stage::depth, Outcome::equal, ""),
+                             graded_row(Stage::merge, Outcome::expected)}));
+  EXPECT_EQ(lacking.text, "not judged: 12 pixels\n");
 }
 
 TEST(Grade, ResultsAreGradescopesAndATable) {

@@ -85,8 +85,7 @@ bool has_corner_between_places(const WindowTriangle<double>& t, const Convention
   const auto is_between = [&](int axis, double p_win) {
     const double middle = in_steps(conventions, axis, p_win) - 0.5;
     if (is_to_nearest) return std::abs(middle - std::nearbyint(middle)) <= 4 * u * std::max(std::abs(middle), a_pixel);
-    const auto [least, most] = snapped_range(conventions, axis, (p_win - 0.5) * kSubpixel);
-    return least != most;
+    return on_grid(conventions, axis, p_win - kOfFixedPoint) != on_grid(conventions, axis, p_win + kOfFixedPoint);
   };
   return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(0, v.p_win.x) || is_between(1, v.p_win.y); });
 }

@@ -22,7 +22,7 @@ Planes finished(const Scene& scene, Renderer& referee, Stage stage, Capture of) 
   return std::move(of.planes);
 }
 
-// Infinities of one sign are equal, and so are two values that are no numbers.
+// True: x and y differ by more than `most`. Equal infinities do not differ, nor do two NaNs.
 bool is_apart(double x, double y, double most) {
   const bool is_same = x == y || (std::isnan(x) && std::isnan(y));
   return !is_same && !(std::abs(x - y) <= most);

@@ -230,9 +230,8 @@ std::string convention_notes(const std::string& file) {
                        file.empty() ? "no tie rule is declared: plumb learn"
                        : conventions.tie_rule == Conventions::TieRule::any
                            ? fmt::format("{} declares no tie rule", file)
-                           : "a rule is settled by subpixel_bits 0 to 10, the sample at whole 1/256 pixels; where rows "
-                             "count from the top, "
-                             "subpixel_rounding nearest");
+                           : "a rule is settled by subpixel_bits 0 to 10, the sample at a multiple of 1/256 pixel or "
+                             "on the grid; where rows count from the top, subpixel_rounding nearest");
   return out;
 }
 

@@ -68,15 +68,24 @@ std::pair<bool, std::string> stage_grade(const check::SceneVerdict& verdict, Sta
   return {judged, judged ? "right" : "not judged: the program does not show it"};
 }
 
+// The first stage's row that differs, known to or not; null: none.
+const check::Comparison* first_wrong_or_known(const check::SceneVerdict& verdict) {
+  const check::Comparison* first = first_wrong(verdict);
+  for (const check::Comparison& c : verdict.comparisons) {
+    if (check::votes(c) && is_known_to_differ(c) && (first == nullptr || c.stage < first->stage)) first = &c;
+  }
+  return first;
+}
+
 // The remark on a whole scene that is not right.
 std::string scene_remark(const check::SceneVerdict& verdict) {
   const auto& rows = verdict.comparisons;
-  if (const check::Comparison* first = first_wrong(verdict))
+  if (const check::Comparison* first = first_wrong_or_known(verdict))
     return fmt::format("wrong, from the stage {} on: {}", name_of(first->stage), remark_with_values(*first));
-  if (const auto known = std::ranges::find_if(rows, is_known_to_differ); known != rows.end())
-    return fmt::format("wrong, from the stage {} on: {}", name_of(known->stage), check::remark(*known));
-  const auto failed = std::ranges::find(rows, check::Outcome::failed, &check::Comparison::outcome);
-  const auto why = failed != rows.end() ? failed : rows.begin();
+  const auto lacks = [](const check::Comparison& c) {
+    return c.outcome == check::Outcome::failed || c.outcome == check::Outcome::expected;
+  };
+  const auto lacking = std::ranges::find_if(rows, lacks), why = lacking != rows.end() ? lacking : rows.begin();
   return why == rows.end() ? "not judged" : fmt::format("not judged: {}", why->note);
 }
 

@@ -96,8 +96,8 @@ TEST(KnownFaults, AreRoundingsThatConventionsDeclareAndTheRendererDoesNotHave) {
   }
 }
 
-// Frames of an affine renderer, of another tie rule or of whole pixels: what the conventions declare is drawn, and is no
-// fault.
+// Frames of an affine renderer, of another tie rule or of whole pixels: what the conventions declare is drawn, and is
+// no fault.
 TEST(KnownFaults, AreDrawnByDeclaredInterpolationTiesAndWholePixels) {
   C affine, exclusive, inclusive, left_top, whole_pixels;
   affine.interpolation = C::Interpolation::affine;
