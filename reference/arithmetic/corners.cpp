@@ -1,5 +1,4 @@
 // A scene's corners in double, and on the declared grid (settles_grid()).
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <unordered_map>

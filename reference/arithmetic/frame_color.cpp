@@ -167,8 +167,9 @@ FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending,
       written_{},
       stored_{} {
   write({}, around(glm::dvec4(frame.clear_color), 0));
-  for (std::size_t c = 0; codes_ && c < 4;
-       ++c) {  // a renderer that rounds fragments down or up may clear to the nearest
+  if (!codes_) return;
+  // A renderer that rounds fragments down or up may clear to the nearest code.
+  for (std::size_t c = 0; c < 4; ++c) {
     const double nearest = std::nearbyint(static_cast<double>(frame.clear_color[static_cast<int>(c)]) * unit_);
     stored_[c] = {std::min(stored_[c].lo, nearest), std::max(stored_[c].hi, nearest)};
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "check/bounds/bounds.h"
 #include "check/judge/stage_copy.h"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "check/compare/compare_records.h"
 #include "check/compare/window_area.h"
