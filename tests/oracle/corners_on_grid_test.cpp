@@ -114,6 +114,15 @@ TEST(CornersOnGrid, LeaveNoCrackBesideAnOpenNeighbour) {
   }
 }
 
+// Corners on one line but for a rounding of float; on the grid, a triangle of 6.5 square pixels. Either may cull it.
+TEST(CornersOnGrid, LeaveOpenWhatFloatMayHaveNoAreaFor) {
+  const float above = std::nextafter(8.6f, 9.0f);
+  const Scene scene = window_scene({{glm::vec3(3, 2.1f, 0.5f), {29, 15.1f, 0.5f}, {16, above, 0.5f}}});
+  const Legal by = legal(scene, whole_pixels(C::Rounding::nearest, 0.5));
+  EXPECT_EQ(std::ranges::count(by.certain.values(), 0u), kSize * kSize);
+  EXPECT_GT(open_pixels(by), 3u);
+}
+
 // What the grid leaves open: a corner half way between two places, and a grid that is not known.
 TEST(CornersOnGrid, AreNoneWhereTheirPlacesAreOpen) {
   const auto open = [](const Scene& scene, const C& c) { return open_pixels(legal(scene, c)); };
