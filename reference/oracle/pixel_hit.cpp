@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "reference/arithmetic/error_in_float.h"
@@ -94,7 +95,7 @@ void set_depth(const PixelSite& site, bool is_inside, PixelHit& out) {
   const Projected& scene = site.scene;
   const Triangle& t = site.t;
   const bool clamps = scene.depth_clamp;
-  const double weight = site.snap_weight(is_inside, t.snap);
+  const double weight = site.snap_weight(is_inside);
   PixelDepth& view = out.view;
   if (t.flat || !std::isfinite(weight)) {
     view.z = t.ahead ? std::clamp(0.5 * (t.z_min + t.z_max), 0.0, 1.0) : 0.5;
@@ -163,10 +164,12 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   // Two triangles whose shared edge a side plane cuts may round the new corner, down or up, to different grid points.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.may_join_group = t.facing_kept && !t.flat && !t.cut;
-  const PixelSite covering(projected, projected.covering(primitive), px, py);
+  std::optional<PixelSite> copy;
+  if (t.on_grid) copy.emplace(projected, projected.covering(primitive), px, py);
+  const PixelSite& covering = copy ? *copy : site;
   if (!out.hit.certain) out.covers = coverage_of(projected, t, covering);
   const bool is_by_grid =
-      t.on_grid && covering.in_reach && projected.conventions.depth_corners == Conventions::DepthCorners::snapped;
+      copy && covering.in_reach && projected.conventions.depth_corners == Conventions::DepthCorners::snapped;
   set_depth(is_by_grid ? covering : site, out.hit.certain || (is_by_grid && out.covers == true), out);
   out.covered_inside = out.hit.certain;
   out.may_join_group = out.may_join_group && !apart && !at_cut;

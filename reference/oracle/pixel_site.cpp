@@ -110,14 +110,14 @@ void PixelSite::find_pieces() {
   pieces = {thinnest(t.altitude, t.outline), thinnest(t.guarded.altitude, t.guarded.outline)};
 }
 
-double PixelSite::snap_weight(bool certain, double snap) const {
+double PixelSite::snap_weight(bool certain) const {
   // A plane through vertices displaced by up to delta_E, evaluated at a pixel with barycentrics b' in the displaced
   // triangle, has the value of the point sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel. Inside, the sum
   // is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b' are negative, each
   // by at most the step over the altitude. The pieces of a cut triangle have such borders inside the triangle, too.
   if (certain && !t.cut) return 1;
   const double altitude = pieces.framed;
-  return altitude > 0 ? 1 + 4 * snap / altitude : kInfinity;
+  return altitude > 0 ? 1 + 4 * t.snap / altitude : kInfinity;
 }
 
 // Thin pieces of a cut triangle lie at its border.
@@ -126,7 +126,7 @@ bool PixelSite::may_show_either_face(bool certain) const { return t.thin || t.si
 /// snap_weight() for the pixel's centre where the triangle covers a sample: the centre may be outside of the triangle
 /// by the sample's offset.
 double PixelSite::centre_weight(bool certain) const {
-  const double weight = snap_weight(certain, t.snap), apart = glm::length(scene.sample);
+  const double weight = snap_weight(certain), apart = glm::length(scene.sample);
   if (apart == 0) return weight;
   const double altitude = t.altitude - 2 * (t.reach - t.snap);
   return altitude > 0 ? std::max(weight, 1 + 4 * (t.snap + apart) / altitude) : kInfinity;

@@ -44,9 +44,8 @@ class PixelSite {
   PieceAltitudes pieces{};   ///< of the pieces that may cover the pixel, less their error
   glm::dvec2 moved{0};       ///< largest displacement of the triangle by float arithmetic at `nearest` [pixels]
 
-  /// Largest sum of |barycentrics| at the pixel: factor on errors of the plane's corners; infinite: no bound. `snap`:
-  /// displacement of the plane's corners from the outline's by snapping [pixels].
-  double snap_weight(bool certain, double snap) const;
+  /// Largest sum of |barycentrics| at the pixel: factor on errors of the plane's corners; infinite: no bound.
+  double snap_weight(bool certain) const;
   /// True if snapping may reverse the facing of the triangle or of the covering piece.
   bool may_show_either_face(bool certain) const;
   /// True if snapping may reverse the covering piece's facing; its plane then goes through snapped corners.

@@ -154,7 +154,7 @@ SnappedRange snapped_range(const Conventions& conventions, int axis, double from
 /// Position of a window coordinate [pixels] in the renderer's own window, before snapping: from the frame's side [the
 /// grid's steps, 2^-subpixel_bits pixel]. There must be a grid.
 double in_steps(const Conventions& conventions, int axis, double p_win);
-/// The same on the grid, whatever the grid's fineness: a whole number.
+/// Whole number of steps that in_steps() is snapped to, whatever the grid's fineness.
 double on_grid(const Conventions& conventions, int axis, double p_win);
 
 /// A convention for people.

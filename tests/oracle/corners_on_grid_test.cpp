@@ -123,7 +123,7 @@ TEST(CornersOnGrid, LeaveOpenWhatFloatMayHaveNoAreaFor) {
   EXPECT_GT(open_pixels(by), 3u);
 }
 
-// What the grid leaves open: a corner half way between two places, and a grid that is not known.
+// Open corners: one half way between two places, and those of a grid that is not known.
 TEST(CornersOnGrid, AreNoneWhereTheirPlacesAreOpen) {
   const auto open = [](const Scene& scene, const C& c) { return open_pixels(legal(scene, c)); };
   const C c = whole_pixels(C::Rounding::nearest, 0.5);

@@ -35,6 +35,16 @@ struct ByConventions : testing::Test {
     const glm::dvec3 a(2.5, 1.5, 0), b(5.5, 1.5, 0), c(5.5, 4.5, 0), d(2.5, 4.5, 0);
     candidate.records.triangles = {triangle_of({a, b, c}, {1, 1, 1}, 0), triangle_of({a, c, d}, {1, 1, 1}, 1)};
   }
+  // A clip polygon of these corners in the window, of the only triangle.
+  void add_polygon(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+    scene.meshes[0].triangles.resize(1);
+    Records<double>& r = candidate.records;
+    r.matrices.resize(1);
+    r.matrices[0].win_scale = {4, 3, 0.5}, r.matrices[0].win_translate = {4, 3, 0.5};
+    for (const glm::dvec2 p : {a, b, c})
+      r.polygons.vertices.push_back({{(p.x - 4) / 4, (p.y - 3) / 3, 0, 1}, glm::dvec4(1), false});
+    r.polygons.polygons = {{0, 0, 3}};
+  }
   Capture covered_by(C::TieRule rule) {
     return run_by_conventions(*exact, scene, Stage::coverage, candidate, by_rule(rule));
   }
@@ -252,15 +262,8 @@ TEST_F(ByConventions, AffineColoursAreThoseOfOneDistance) {
 
 // A triangle 0.3 steps of 1/256 pixel high, and of 0.45: on finer grids it has an area, which exact's does not have.
 TEST_F(ByConventions, WindowTrianglesHaveAnAreaOnTheDeclaredGrid) {
-  scene.meshes[0].triangles.resize(1);
+  add_polygon({1, 2.5 + 0.3 / 256}, {7, 2.5 + 0.3 / 256}, {4, 2.5 + 0.45 / 256});
   Records<double>& r = candidate.records;
-  r.matrices.resize(1);
-  r.matrices[0].win_scale = {4, 3, 0.5}, r.matrices[0].win_translate = {4, 3, 0.5};
-  const auto corner = [&](double x, double y) {
-    return ClipVertex<double>{{(x - 4) / 4, (y - 3) / 3, 0, 1}, glm::dvec4(1), false};
-  };
-  r.polygons.vertices = {corner(1, 2.5 + 0.3 / 256), corner(7, 2.5 + 0.3 / 256), corner(4, 2.5 + 0.45 / 256)};
-  r.polygons.polygons = {{0, 0, 3}};
   C c;
   const auto triangles = [&] {
     return run_by_conventions(*exact, scene, Stage::window, candidate, c).records.triangles;
@@ -293,15 +296,7 @@ TEST_F(ByConventions, WindowTrianglesHaveAnAreaOnTheDeclaredGrid) {
 
 // Whole pixels are counted from the frame's side, wherever the sample lies.
 TEST_F(ByConventions, WindowTrianglesLieOnWholePixels) {
-  scene.meshes[0].triangles.resize(1);
-  Records<double>& r = candidate.records;
-  r.matrices.resize(1);
-  r.matrices[0].win_scale = {4, 3, 0.5}, r.matrices[0].win_translate = {4, 3, 0.5};
-  const auto corner = [&](double x, double y) {
-    return ClipVertex<double>{{(x - 4) / 4, (y - 3) / 3, 0, 1}, glm::dvec4(1), false};
-  };
-  r.polygons.vertices = {corner(1.25, 1.25), corner(6.75, 1.25), corner(6.75, 3.75)};
-  r.polygons.polygons = {{0, 0, 3}};
+  add_polygon({1.25, 1.25}, {6.75, 1.25}, {6.75, 3.75});
   C c;
   c.subpixel_bits = 0;
   for (const double sample : {0.5, 0.0, 0.25}) {
