@@ -65,19 +65,28 @@ Color<float> lit_light_by_light(const Illumination& illumination, const Reflecta
   return {pipeline::clamp01(sum.r), pipeline::clamp01(sum.g), pipeline::clamp01(sum.b), sum.a};
 }
 
+// Vertices of a draw, and the lights that they are lit by.
+struct VerticesInLight {
+  const Scene& scene;
+  const Draw& draw;
+  const Mesh& mesh;
+  pipeline::Lights lights;
+  std::span<const Vertex<float>> vertices;
+};
+
+// Lit colours of the part, into the vertices' attribute of that number.
 template <auto change, bool clamps>
-void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart part, pipeline::Lights lights,
-                std::span<const Vertex<float>> vertices, std::size_t attribute, std::span<pipeline::Attributes> out) {
-  const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
-  const Illumination in_eye_space = pipeline::illumination(scene, lights);
-  const pipeline::ColoredMaterial material = pipeline::colored_material(scene, draw, part);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Color<float> color = by_color ? Color<float>(mesh.colors[i]) : Color<float>{};
+void light_part(const VerticesInLight& of, LitPart part, std::size_t attribute, std::span<pipeline::Attributes> out) {
+  const bool by_color = of.draw.color_material != ColorMaterial::none && !of.mesh.colors.empty();
+  const Illumination in_eye_space = pipeline::illumination(of.scene, of.lights);
+  const pipeline::ColoredMaterial material = pipeline::colored_material(of.scene, of.draw, part);
+  for (std::size_t i = 0; i < of.vertices.size(); ++i) {
+    const Color<float> color = by_color ? Color<float>(of.mesh.colors[i]) : Color<float>{};
     const Reflectance<float> of_vertex =
-        pipeline::reflectance<float>(scene, by_color ? material : pipeline::ColoredMaterial{material.own}, color);
-    const Vec3<float>& n = vertices[i].n_eye;
+        pipeline::reflectance<float>(of.scene, by_color ? material : pipeline::ColoredMaterial{material.own}, color);
+    const Vec3<float>& n = of.vertices[i].n_eye;
     const Color<float> lit =
-        lit_light_by_light<change, clamps>(in_eye_space, of_vertex, vertices[i].p_eye, part.back ? -n : n);
+        lit_light_by_light<change, clamps>(in_eye_space, of_vertex, of.vertices[i].p_eye, part.back ? -n : n);
     out[i][attribute] = {lit.r, lit.g, lit.b, part.secondary ? 0 : lit.a};
   }
 }
@@ -88,11 +97,11 @@ void at_vertices(const Scene& scene, const Draw& draw, const Mesh& mesh, pipelin
   pipeline::light(scene, draw, mesh, lights, vertices, out);
   if (!is_lit_per_vertex(draw)) return;
   const std::span<pipeline::Attributes> added = std::span(out).last(vertices.size());
-  light_part<change, clamps>(scene, draw, mesh, {}, lights, vertices, 0, added);
+  const VerticesInLight of{scene, draw, mesh, lights, vertices};
+  light_part<change, clamps>(of, {}, 0, added);
   for (const Varying v : kAllVaryings) {
     if (!is_lit(v) || !carries(scene, draw, v)) continue;
-    light_part<change, clamps>(scene, draw, mesh, {is_back(v), is_secondary(v)}, lights, vertices, 1 + index_of(v),
-                               added);
+    light_part<change, clamps>(of, {is_back(v), is_secondary(v)}, 1 + index_of(v), added);
   }
 }
 

@@ -236,32 +236,36 @@ Levels<R> levels(const TextureSetup& t, R lod) {
   return {to_float(lesser_of(first, last)), first < last, lambda - whole};
 }
 
-/// Texel of level `first`, mixed where `two` with level `second`, whose share is k; linear or nearest within a level.
-/// Rounded once, from double.
+/// Levels of a texel: `first` (int: one of all lanes, or R), mixed where `two` with `second`, whose share is k [0,1).
+template <class R, class Level>
+struct MixedLevels {
+  Level first, second;
+  Mask<R> two;
+  Wide<R> k;
+};
+
+/// Texel of the levels, linear or nearest within a level. Rounded once, from double.
 template <class R, bool kBorder, class Level>
-Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const Level& first, const Level& second,
-                    const Mask<R>& two, const Wide<R>& k) {
+Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const MixedLevels<R, Level>& of) {
   Taps<R> taps;
-  find_taps<R>(t, first, linear, at, taps);
+  find_taps<R>(t, of.first, linear, at, taps);
   Wide<R> low[4];
   for (int row = 0; row < 4; ++row) low[row] = texel_row<R, kBorder>(t, taps, linear, row);
-  if (!any(two)) return fours_of_rows(low);
-  find_taps<R>(t, second, linear, at, taps);
+  if (!any(of.two)) return fours_of_rows(low);
+  find_taps<R>(t, of.second, linear, at, taps);
   double share[Lanes<R>::width];
-  store(k, share);
+  store(of.k, share);
   Wide<R> mixed[4];
   for (int row = 0; row < 4; ++row) {
     mixed[row] = mix<Wide<R>>(low[row], texel_row<R, kBorder>(t, taps, linear, row), row_of_shares(R(), row, share));
   }
   const Color<R> color = fours_of_rows(mixed);
-  return all(two) ? color : select<R>(two, color, fours_of_rows(low));
+  return all(of.two) ? color : select<R>(of.two, color, fours_of_rows(low));
 }
 
-template <class R>
-Color<R> sample_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const auto& first,
-                       const auto& second, const Mask<R>& two, const Wide<R>& k) {
-  return t.has_border ? mix_levels<R, true>(t, at, linear, first, second, two, k)
-                      : mix_levels<R, false>(t, at, linear, first, second, two, k);
+template <class R, class Level>
+Color<R> sample_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const MixedLevels<R, Level>& of) {
+  return t.has_border ? mix_levels<R, true>(t, at, linear, of) : mix_levels<R, false>(t, at, linear, of);
 }
 
 /// Texel of the base level by the magnification filter.
@@ -269,7 +273,8 @@ template <class R>
 [[gnu::always_inline]] inline Color<R> magnified(const TextureSetup& t, const TexCoords<R>& at) {
   const R none(0);
   const int level = t.sampler.base_level;
-  return sample_levels<R>(t, at, t.sampler.mag == MagFilter::linear, level, level, none != none, Wide<R>(0));
+  const MixedLevels<R, int> base{level, level, none != none, Wide<R>(0)};
+  return sample_levels<R>(t, at, t.sampler.mag == MagFilter::linear, base);
 }
 
 /// Texel at level of detail `lod`, which is not NaN.
@@ -288,10 +293,12 @@ Color<R> sample(const TextureSetup& t, const TexCoords<R>& at, R lod) {
   const Color<R> low = [&] {
     if constexpr (Lanes<R>::width > 1) {
       if (!all(first == R(static_cast<float>(one)))) {
-        return sample_levels<R>(t, at, linear, first, select(two, first + R(1), first), two, of.k);
+        const MixedLevels<R, R> each{first, select(two, first + R(1), first), two, of.k};
+        return sample_levels<R>(t, at, linear, each);
       }
     }
-    return sample_levels<R>(t, at, linear, one, std::min(one + 1, t.last), two, of.k);
+    const MixedLevels<R, int> all_lanes{one, std::min(one + 1, t.last), two, of.k};
+    return sample_levels<R>(t, at, linear, all_lanes);
   }();
   const bool alike = linear == (s.mag == MagFilter::linear);
   return alike || !any(larger) ? low : select<R>(larger, magnified<R>(t, at), low);

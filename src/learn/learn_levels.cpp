@@ -63,16 +63,16 @@ double floor_lambda(glm::dvec2 p_win, bool lower, C::Interpolation interpolation
 
 // Counts of pixels off the triangles' common edge: all; with their own level; with a level of their square of 2 x 2.
 // Counts of squares whose pixels' own levels differ: all; drawn in one level.
-struct Levels {
+struct LevelCounts {
   std::size_t pixels = 0, own = 0, of_square = 0, squares = 0, alike = 0;
 };
-Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample, C::Interpolation interpolation) {
+LevelCounts level_counts(const Plane<glm::vec4>& color, glm::dvec2 sample, C::Interpolation interpolation) {
   const auto lambda_at = [&](int x, int y, bool lower) {
     return floor_lambda(glm::dvec2(x, y) + sample, lower, interpolation);
   };
   const auto drawn = [&](int x, int y) { return std::round(255 * static_cast<double>(color(x, y).r) / 40); };
   const auto level = [](double lambda) { return std::clamp(std::ceil(lambda + 0.5) - 1, 0.0, 6.0); };
-  Levels out;
+  LevelCounts out;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
       if (std::abs(x - y) < 3 || may_be_nobodys(x, y, sample)) continue;
@@ -108,9 +108,9 @@ void learn_levels(Prober& prober) {
       prober.open_if_any_open(words, {kSampleWords.name, "interpolation"}))
     return;
   const Plane<glm::vec4> color = prober.draw(floor_scene()).color;
-  Levels levels = levels_of(color, c.sample, c.interpolation);
+  LevelCounts levels = level_counts(color, c.sample, c.interpolation);
   if (c.interpolation == C::Interpolation::affine) {  // levels may still be those of the surface
-    const Levels of_surface = levels_of(color, c.sample, C::Interpolation::perspective);
+    const LevelCounts of_surface = level_counts(color, c.sample, C::Interpolation::perspective);
     if (of_surface.of_square > levels.of_square) levels = of_surface;
   }
   using enum C::LevelOfDetail;
