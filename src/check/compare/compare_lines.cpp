@@ -10,6 +10,7 @@
 
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
+#include "check/compare/same_winners.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -212,30 +213,22 @@ Measurement compare_line_or_point_winners(const Scene& scene, const Capture& can
       !same_size(mine.count, mine.id_sum, why) || !same_size(mine.id, mine.count, why)) {
     return mismatch("pixels", why, mine.id.size());
   }
-  const bool held = stencils == Stencils::compared && !mine.stencil.empty();
-  if (stencils == Stencils::compared && mine.stencil.size() != theirs.stencil.size()) {
-    return mismatch("pixels", "stencil values of one side alone", mine.id.size());
-  }
   if (candidate.records.depth.size() != candidate.records.covered.size()) {
     return mismatch("pixels", "not a depth for each fragment", mine.id.size());
   }
   const LegalWinners legal(scene, candidate.records);
-  return compare_planes(mine.id, theirs.id, "pixels", [&](Meter& meter, int x, int y) {
-    const std::int32_t a = mine.id(x, y), b = theirs.id(x, y);
-    const int stencil_a = held ? mine.stencil(x, y) : 0, stencil_b = held ? theirs.stencil(x, y) : 0;
-    if (a == b && stencil_a == stencil_b) return;
-    const bool alike = mine.id_sum(x, y) == theirs.id_sum(x, y) && mine.count(x, y) == theirs.count(x, y);
-    if (!alike) return meter.ambiguous();
+  const OthersCover others_cover(mine, theirs);
+  const auto is_open = [&](Meter&, int x, int y, const Winner& a, const Winner& b, bool held) {
+    if (others_cover(x, y)) return true;
     const std::vector<LegalAnswer> answers = legal.at(x, y);
-    const auto is_legal = [&](std::int32_t primitive, int stencil) {
+    const auto is_legal = [&](const Winner& winner) {
       return std::ranges::any_of(answers, [&](const LegalAnswer& answer) {
-        return answer.primitive == primitive && (!held || answer.stencil == stencil);
+        return answer.primitive == winner.primitive && (!held || answer.stencil == winner.stencil);
       });
     };
-    if (is_legal(a, stencil_a) && is_legal(b, stencil_b)) return meter.ambiguous();
-    if (a == b) return meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
-    meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
-  });
+    return is_legal(a) && is_legal(b);
+  };
+  return compare_winners_at_pixels(mine, theirs, stencils, is_open);
 }
 
 }  // namespace plumbline::check

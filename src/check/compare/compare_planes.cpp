@@ -30,21 +30,13 @@ Measurement compare_coverage(const Planes& candidate, const Planes& reference, c
 }
 
 Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal, Stencils stencils) {
-  const bool held = stencils == Stencils::compared && !candidate.stencil.empty();
-  if (stencils == Stencils::compared && candidate.stencil.size() != reference.stencil.size()) {
-    return mismatch("pixels", "stencil values of one side alone", candidate.id.size());
-  }
-  return compare_planes(candidate.id, reference.id, "pixels", [&](Meter& meter, int x, int y) {
-    const std::int32_t a = candidate.id(x, y), b = reference.id(x, y);
-    const int stencil_a = held ? candidate.stencil(x, y) : 0, stencil_b = held ? reference.stencil(x, y) : 0;
-    if (a == b && stencil_a == stencil_b) return;
-    if (!legal.empty() && answer_of_winner(legal, candidate, x, y) != nullptr) {
-      if (answer_of_winner(legal, reference, x, y) != nullptr) return meter.ambiguous();
-      meter.suspect("its winner is none of the legal ones, ours is");
-    }
-    if (a != b) return meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
-    meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
-  });
+  const auto is_open = [&](Meter& meter, int x, int y, const Winner&, const Winner&, bool) {
+    if (legal.empty() || answer_of_winner(legal, candidate, x, y) == nullptr) return false;
+    if (answer_of_winner(legal, reference, x, y) != nullptr) return true;
+    meter.suspect("its winner is none of the legal ones, ours is");
+    return false;
+  };
+  return compare_winners_at_pixels(candidate, reference, stencils, is_open);
 }
 
 namespace {

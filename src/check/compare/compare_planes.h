@@ -5,6 +5,7 @@
 
 #include "capture/capture.h"
 #include "capture/conventions.h"
+#include "check/compare/same_winners.h"
 #include "check/verdict/measure.h"
 #include "scene/scene.h"
 
@@ -14,9 +15,6 @@ namespace plumbline::check {
 /// `legal` (empty: nowhere) allows several counts, the candidate's among them. If a pixel that is not open differs,
 /// differences at open pixels are ambiguous; if open pixels alone differ, these pixels count as different.
 Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal = {});
-
-/// Stencil values beside winners: compared, or not shown by the candidate.
-enum class Stencils { compared, not_shown };
 
 /// Compares winners and stencil values. A pixel that differs is ambiguous if both sides' values are a legal answer,
 /// disputed if only the candidate's are, else different. `legal` empty: every difference counts.

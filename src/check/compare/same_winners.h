@@ -1,6 +1,8 @@
-// Parts of comparators of two renderers' planes: pixels of one winner, and pixels that other fragments cover.
+// Parts of comparators of two renderers' planes: pixels' winners, pixels of one winner, and pixels that other fragments
+// cover.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "capture/capture.h"
@@ -8,6 +10,33 @@
 #include "check/verdict/measure.h"
 
 namespace plumbline::check {
+
+/// Stencil values beside winners: compared, or not shown by the candidate.
+enum class Stencils { compared, not_shown };
+
+/// A pixel's winner and stencil value; 0 where stencil values are not compared, or the candidate's frame holds none.
+struct Winner {
+  std::int32_t primitive = 0;
+  int stencil = 0;
+  bool operator==(const Winner&) const = default;
+};
+
+/// Compares winners, with stencil values where `stencils` says so. Where two winners differ, is_open(meter, x, y, a, b,
+/// held) tells whether both are legal; `held`: stencil values count.
+inline Measurement compare_winners_at_pixels(const Planes& a, const Planes& b, Stencils stencils, auto is_open) {
+  const bool held = stencils == Stencils::compared && !a.stencil.empty();
+  if (stencils == Stencils::compared && a.stencil.size() != b.stencil.size())
+    return mismatch("pixels", "stencil values of one side alone", a.id.size());
+  return compare_planes(a.id, b.id, "pixels", [&](Meter& meter, int x, int y) {
+    const auto winner = [&](const Planes& of) { return Winner{of.id(x, y), held ? of.stencil(x, y) : 0}; };
+    const Winner mine = winner(a), theirs = winner(b);
+    if (mine == theirs) return;
+    if (is_open(meter, x, y, mine, theirs, held)) return meter.ambiguous();
+    if (mine.primitive != theirs.primitive)
+      return meter.value(1, 0, {x, y, -1, "primitive"}, mine.primitive, theirs.primitive);
+    meter.value(1, 0, {x, y, -1, "stencil"}, mine.stencil, theirs.stencil);
+  });
+}
 
 /// Compares a plane (such as &Planes::color) by visit(meter, x, y, winner) where both sides have the same winner;
 /// visibility judges the other pixels.
