@@ -369,7 +369,7 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
   CLI::App* report = app.add_subcommand("report", "Compare and merge runs of plumb check by the JSON that they left");
   report->require_subcommand(1);
-  add_command(*report, out.command, "diff", "What is newly broken or fixed, not run any more, or has moved",
+  add_command(*report, out.command, "diff", "What is newly broken or fixed, not judged any more, or has moved",
               report_diff);
   add_command(*report, out.command, "merge", "Shards of a run, as that run", report_merge);
   add_command(app, out.command, "notes",

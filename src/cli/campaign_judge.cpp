@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 
 #include "base/atomic_path.h"
+#include "base/utf8.h"
 #include "campaign/shrink.h"
 #include "campaign/states/states.h"
 #include "cli/options/renderers.h"
 #include "report/text/conformance.h"
-#include "report/text/safe_text.h"
 #include "scene/file/scene_file.h"
 
 namespace plumbline::cli {
@@ -34,7 +34,7 @@ std::string without_numbers(const std::string& text) {
   static const std::regex pass("^pass [0-9]+: "), number("0x[0-9a-fA-F]+|[0-9]+");
   std::string out = std::regex_replace(std::regex_replace(text, pass, ""), number, "#").substr(0, 100);
   std::ranges::replace(out, '\n', ' ');
-  return report::as_utf8(out);
+  return as_utf8(out);
 }
 
 // Row that stands for all of its stage and outcome: one of per_stage before from_scene before legal; else `row`. So a

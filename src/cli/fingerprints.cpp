@@ -18,10 +18,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/utf8.h"
 #include "capture/files/conventions_file.h"
 #include "check/golden/golden_hash.h"
 #include "cli/options/program_argument.h"
-#include "report/text/safe_text.h"
 
 namespace plumbline::cli {
 
@@ -124,7 +124,7 @@ std::string campaign_fingerprint(const CheckOptions& o) {
   std::string out = fmt::format("plumb {}{}", PLUMBLINE_VERSION, fingerprint_of({"/proc/self/exe"}));
   if (!o.fault.empty()) out += ", fault " + o.fault;
   if (!o.candidate.command.empty())
-    out += ", program " + report::as_utf8(o.candidate.command) + fingerprint_of(files_of(o.candidate.command));
+    out += ", program " + as_utf8(o.candidate.command) + fingerprint_of(files_of(o.candidate.command));
   if (!o.candidate.from.empty()) out += ", from " + o.candidate.from;
   if (o.candidate.probes) out += ", each primitive";
   if (!o.candidate.conventions.empty())

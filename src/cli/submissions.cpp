@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/atomic_path.h"
+#include "base/utf8.h"
 #include "check/verdict/verdict.h"
 #include "cli/judge_in_workers.h"
 #include "cli/options/outputs.h"
@@ -19,7 +20,6 @@
 #include "report/runs/run_file.h"
 #include "report/text/conformance.h"
 #include "report/text/markdown.h"
-#include "report/text/safe_text.h"
 #include "report/text/table.h"
 
 namespace plumbline::cli {
@@ -106,7 +106,7 @@ int check_submissions(const CheckRules& given, std::span<const Scene> scenes,
     std::set<std::string> words;
     std::vector<check::SceneVerdict> verdicts;
     judge_in_workers(scenes, rules, words, [&](JudgedScene judged) { verdicts.push_back(std::move(judged.verdict)); });
-    rows.push_back({report::as_utf8(folder.filename().string()), rubric ? points_of(*rubric, verdicts) : "-",
+    rows.push_back({as_utf8(folder.filename().string()), rubric ? points_of(*rubric, verdicts) : "-",
                     report::whole_suite(verdicts)});
     all_hold &= report::all_hold(verdicts) && check::any_judged(verdicts);
     fmt::print("{}", line(rows.back()));

@@ -99,6 +99,7 @@ TEST_F(Server, IsStartedAgainWhereItEndedHungOrSpokeNonsense) {
         std::pair("sleep 60", "took longer than 2s and was killed"),
         std::pair("cp \"$good\"/* \"$out\"; sleep 60", "killed: it left a capture, and no line of answer on stdout"),
         std::pair("echo hello", "answered \"hello\", expected ok, unsupported REASON or"),
+        std::pair("printf '\\377\\033[31m\\n'", "answered \"\xef\xbf\xbd?[31m\", expected ok"),
         std::pair("exit 0", "ended without an answer"), std::pair("echo ok", "left no capture that can be read")}) {
     const fs::path mark = root_ / "mark";
     fs::remove(mark);

@@ -71,7 +71,7 @@ TEST_F(CheckInCi, ShardsComeToTheWholeRun) {
   const Outcome diff = plumb("report diff " + at("whole.json") + " " + at("all.json") + " --slower 1000000");
   EXPECT_EQ(diff.code, 0);
   EXPECT_EQ(diff.text, "nothing has changed\n");
-  EXPECT_EQ(plumb("report diff " + at("whole.json") + " " + at("1.json")).code, 1) << "a scene is not run any more";
+  EXPECT_EQ(plumb("report diff " + at("whole.json") + " " + at("1.json")).code, 1) << "a scene is not judged any more";
   const Outcome lacking = plumb("report merge " + at("2.json"));
   EXPECT_EQ(lacking.code, 1);
   EXPECT_TRUE(lacking.says("missing: shard 1 of 2")) << lacking.text;

@@ -1,12 +1,14 @@
 // Reports: what a person or a program reads of a verdict.
 #include <filesystem>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_path.h"
 #include "report/runs/json_report.h"
+#include "report/text/safe_text.h"
 #include "report/text/table.h"
 #include "tests/check/fixtures.h"
 #include "tests/check/verdict/verdicts.h"
@@ -282,6 +284,13 @@ TEST_F(Reports, LedgerFileHasEachGroupsLargestDifferences) {
   EXPECT_EQ(groups[0]["largest_difference"].items().begin().value(), "1.3");
   EXPECT_EQ(groups[1]["largest_difference"].items().begin().value(), "2");
   EXPECT_EQ(groups[1]["largest_difference"].items().begin().key(), "osmesa, clip, u");
+}
+
+TEST(SafeText, FileNamesAreRelativeAndOfOneTextEach) {
+  for (const auto& [text, name] :
+       {std::pair("light/two sides", "light/two~20sides"), std::pair("/tmp/x", "~2ftmp/x"), std::pair("a//b", "a/~2fb"),
+        std::pair("a/", "a~2f"), std::pair("../.x", "~2e./~2ex"), std::pair("~2f", "~7e2f")})
+    EXPECT_EQ(file_name(text), name);
 }
 
 TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {

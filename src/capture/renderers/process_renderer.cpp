@@ -19,6 +19,7 @@
 
 #include "base/program.h"
 #include "base/temporary_path.h"
+#include "base/utf8.h"
 #include "capture/by_conventions.h"
 #include "capture/capture_columns.h"
 #include "capture/complete_records.h"
@@ -115,12 +116,12 @@ bool is_whole_capture(const fs::path& folder) {
   }
 }
 
-// Message text of a program's words: one short line without control characters.
+// Message text of a program's words: one short line of UTF-8 without control characters.
 std::string shortened(std::string text) {
   constexpr std::size_t kMost = 200;
   if (text.size() > kMost) text = text.substr(0, kMost) + "...";
   for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;
-  return text;
+  return as_utf8(text);
 }
 
 struct KeepOnly {

@@ -104,7 +104,7 @@ void add_scene(RunDiff& out, const std::string& what, const SceneVerdict* was, c
 using Kind = std::pair<std::string_view, const std::vector<Change>*>;
 std::vector<Kind> kinds(const RunDiff& d) {
   return {{"newly broken", &d.broken},
-          {"not run any more", &d.lost},
+          {"not judged any more", &d.lost},
           {"newly expected to differ", &d.excused},
           {"newly fixed", &d.fixed},
           {"other outcome", &d.moved},

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "report/text/safe_text.h"
+#include "base/utf8.h"
 
 namespace plumbline::report {
 
