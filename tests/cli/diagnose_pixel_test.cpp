@@ -26,11 +26,19 @@ TEST_F(Cli, APixelsHistoryIsByTheConventions) {
   const Outcome none = plumb(by);
   EXPECT_TRUE(none.says("exact: legal here: primitive 24,")) << none.text;
   EXPECT_TRUE(none.says(" = code ")) << none.text;
+  EXPECT_TRUE(none.says("codes more or less before rounding\n")) << none.text;
   test::write_text(at("c.json"),
                    R"({"format": "plumbline conventions", "version": 1, "sample": [0, 0], "depth_format": "z32f"})");
   const Outcome declared = plumb(by + " --conventions " + at("c.json"));
   EXPECT_TRUE(declared.says("exact: legal here: primitive 23,")) << declared.text;
   EXPECT_FALSE(declared.says(" = code ")) << declared.text;
+}
+
+TEST_F(Cli, APixelsHistoryHasTheLegalColorsOfBlendedFragments) {
+  const std::string scene = kScenes + "blend/glow.json";
+  const Outcome run = plumb("diagnose " + scene + " --against exact --pixel 20,20 --json " + at("out.json"));
+  EXPECT_TRUE(run.says("exact: legal here: color (")) << run.text;
+  EXPECT_NE(test::text_of(at("out.json")).find("\"legal_colors\": {"), std::string::npos);
 }
 
 TEST_F(Cli, WithoutItThereIsNone) {

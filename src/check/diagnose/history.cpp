@@ -271,6 +271,8 @@ PixelHistory history_of(const Scene& scene, const RendererInfo& info, const Capt
   if (!drawn.legal.empty()) {
     const auto legal = drawn.legal.at(pixel.x, pixel.y);
     out.legal.assign(legal.begin(), legal.end());
+    if (!drawn.legal.color_lo.empty())
+      out.legal_colors = {drawn.legal.color_lo(pixel.x, pixel.y), drawn.legal.color_hi(pixel.x, pixel.y)};
   }
   name_lacks(scene, info, out);
   tell_fates(scene, drawn.planes, pixel, out);

@@ -59,6 +59,8 @@ struct PixelHistory {
   std::optional<std::uint8_t> stencil;
   std::vector<std::string> notes;  ///< contradictions among the renderer's own numbers
   std::vector<LegalAnswer> legal;  ///< an oracle's, of the pixel
+  /// Interval of the frame's colour that an oracle allows, not rounded to codes, where fragments are blended (Legal).
+  std::optional<std::pair<glm::vec4, glm::vec4>> legal_colors;
 };
 
 /// One sample of the pixel: a pixel of one pass (antialias.h).

@@ -47,15 +47,22 @@ Json renderer(const check::PixelHistory& h) {
   Json fragments = Json::array(), legal = Json::array();
   for (const check::PixelFragment& f : h.fragments) fragments.push_back(fragment(f));
   for (const LegalAnswer& a : h.legal) {
-    legal.push_back({{"primitive", a.primitive}, {"depth", {a.z_lo, a.z_hi}}, {"stencil", number(a.stencil)}});
+    legal.push_back({{"primitive", a.primitive},
+                     {"depth", {a.z_lo, a.z_hi}},
+                     {"stencil", number(a.stencil)},
+                     {"color", number(a.color)},
+                     {"color_bound", number(a.color_bound)}});
   }
+  Json colors(nullptr);
+  if (h.legal_colors) colors = {{"low", number(h.legal_colors->first)}, {"high", number(h.legal_colors->second)}};
   return {{"renderer", h.renderer},
           {"absent", h.absent.empty() ? Json(nullptr) : Json(h.absent)},
           {"fragments", fragments},
           {"lacks", h.lacks},
           {"frame", {{"color", number(h.color)}, {"depth", number(h.depth)}, {"stencil", number(h.stencil)}}},
           {"notes", h.notes},
-          {"legal", legal}};
+          {"legal", legal},
+          {"legal_colors", colors}};
 }
 
 Json renderers(const std::vector<check::PixelHistory>& histories) {

@@ -1,6 +1,7 @@
 #include "report/text/history_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <tuple>
 
@@ -167,18 +168,29 @@ class Block {
     }
     for (const PixelHistory& h : renderers_) {
       for (const std::string& note : h.notes) out += fmt::format("  {}: {}\n", h.renderer, note);
-      if (h.legal.empty()) continue;
-      out += fmt::format("  {}: legal here:", h.renderer);
       for (const LegalAnswer& a : h.legal) {
         const std::string what = a.primitive == kBackground ? "background" : fmt::format("primitive {}", a.primitive);
-        out += fmt::format("{} {}, depth [{:.9g}, {:.9g}]", &a == h.legal.data() ? "" : ";", what, a.z_lo, a.z_hi);
+        const std::string color = h.legal_colors ? "" : ", " + legal_color(a);
+        out += fmt::format("  {}: legal here: {}, depth [{:.9g}, {:.9g}]{}\n", h.renderer, what, a.z_lo, a.z_hi, color);
       }
-      out += '\n';
+      if (h.legal_colors) out += fmt::format("  {}: legal here: {}\n", h.renderer, between(*h.legal_colors));
     }
     return out;
   }
 
  private:
+  std::string legal_color(const LegalAnswer& a) const {
+    const double scale = color_scale(scene_.frame.color);
+    if (scale > 0 ? !(a.color_bound < 1) : !std::isfinite(a.color_bound)) return "any colour";
+    return fmt::format("color {}{} before rounding", color_text(scene_.frame, a.color),
+                       scale > 0 ? fmt::format(", {:.2g} codes more or less", a.color_bound * scale)
+                                 : fmt::format(", {:.2g} more or less", a.color_bound));
+  }
+  std::string between(const std::pair<glm::vec4, glm::vec4>& colors) const {
+    if (!std::isfinite(colors.first.x)) return "any colour: which fragments make it is open";
+    return fmt::format("color {} to {} before rounding", color_text(scene_.frame, colors.first),
+                       color_text(scene_.frame, colors.second));
+  }
   static std::optional<std::string> four(const std::optional<glm::dvec4>& v) {
     if (!v) return {};
     return numbers(*v);
