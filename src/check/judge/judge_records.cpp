@@ -23,11 +23,6 @@ std::string_view why_by_frame(const Scene& scene, Stage stage, const Conventions
     return "its fog factors are of vertices: the frame's colours are judged";
   if ((stage == Stage::light || stage == Stage::clip) && has_codes_of_vertices(scene.frame, conventions))
     return "its vertices' colours are codes: the frame's colours are judged";
-  if (stage == Stage::attributes && interpolation_of_colors(conventions) != conventions.interpolation)
-    return "its colours are interpolated otherwise than other attributes: the frame's colours are judged";
-  const bool has_colors = stage == Stage::attributes || stage == Stage::texture || stage == Stage::shade;
-  if (has_colors && has_codes_of_fragments(scene.frame, conventions))
-    return "its fragments' colours are codes: the frame's colours are judged";
   return "";
 }
 

@@ -188,7 +188,7 @@ void move_to_grid(WindowTriangle<double>& t, const C& conventions) {
   }
 }
 
-Capture interpolate(Renderer& referee, const Scene& scene, Stage stage, const Capture& in, const C& conventions) {
+Capture interpolate_by(Renderer& referee, const Scene& scene, Stage stage, const Capture& in, const C& conventions) {
   const bool is_finer = conventions.subpixel_bits == C::kFloat || conventions.subpixel_bits > 8;
   const bool are_snapped = goes_by_grid(stage, conventions);
   const bool is_affine = conventions.interpolation == C::Interpolation::affine && stage != Stage::depth;
@@ -201,6 +201,19 @@ Capture interpolate(Renderer& referee, const Scene& scene, Stage stage, const Ca
     for (WindowVertex<double>& v : t.v) v.inv_w = is_affine ? 1 : v.inv_w;
   }
   return referee.run_stage(scene, stage, between, conventions);
+}
+
+Capture interpolate(Renderer& referee, const Scene& scene, Stage stage, const Capture& in, const C& conventions) {
+  Capture out = interpolate_by(referee, scene, stage, in, conventions);
+  if (stage != Stage::attributes || interpolation_of_colors(conventions) == conventions.interpolation) return out;
+  C of_colors = conventions;
+  of_colors.interpolation = interpolation_of_colors(conventions);
+  Capture colors = interpolate_by(referee, scene, stage, in, of_colors);
+  out.records.attributes = std::move(colors.records.attributes);
+  for (const Varying v : kAllVaryings) {
+    if (is_lit(v)) out.records.varyings[v].fragments = std::move(colors.records.varyings[v].fragments);
+  }
+  return out;
 }
 
 // ---- visibility

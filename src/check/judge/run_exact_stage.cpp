@@ -12,6 +12,7 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
+#include "check/judge/rounded_colors.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
@@ -212,7 +213,8 @@ void run_exact_stage(const SceneJudgement& c, Renderer& referee, Stage stage, co
 }
 
 void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, const JudgeId& name) {
-  const Records<double>&mine = c.candidate.records, &theirs = made.records;
+  Records<double> rounded;
+  const Records<double>&mine = c.candidate.records, &theirs = with_rounded_colors(c, stage, made.records, rounded);
   const auto add = [&](auto compare, std::string_view part = "") {
     const Tolerance& row = tolerance(Profile::exact, stage, part);
     c.add(name, stage, compare(row.factor), &row);
