@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "capture/by_conventions.h"
+#include "check/bounds/barycentrics.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -29,9 +30,14 @@ class CodeRoundings {
         scale_(color_scale(c.scene.frame.color)),
         middle_(middle_of(c.conventions.color_rounding)) {}
 
-  Change of_attribute() const { return {-one() * (0.5 + middle_), one() * (0.5 - middle_)}; }
+  // Of a colour, and before it of its corners (to the nearest).
+  Change of_attribute(std::size_t i) const {
+    const Change own = has_codes_of_fragments(c_.scene.frame, c_.conventions) ? last() : Change{};
+    const double reach = of_corners(i);
+    return {own.least - reach, own.most + reach};
+  }
 
-  // CodeRoundings before the last one may reach the result with either sign.
+  // Roundings before the last one may reach the result with either sign.
   Change of_shaded(std::size_t i) const {
     const Draw* draw = draw_of(i);
     if (draw == nullptr) return {};
@@ -43,12 +49,21 @@ class CodeRoundings {
     before += is_lit_per_fragment(*draw) ? 1 : 0;
     before += draw->fog ? 1 : 0;
     const double reach = before * one() * (0.5 + std::abs(middle_));
-    const Change last = of_attribute();
-    return {last.least - reach, last.most + reach};
+    return {last().least - reach, last().most + reach};
   }
 
  private:
   double one() const { return 1 / scale_; }
+  Change last() const { return {-one() * (0.5 + middle_), one() * (0.5 - middle_)}; }
+  double of_corners(std::size_t i) const {
+    const Records<double>& r = c_.candidate.records;
+    const Covered& at = r.covered[i];
+    if (!has_codes_of_vertices(c_.scene.frame, c_.conventions) || at.triangle >= r.triangles.size()) return 0;
+    const WindowTriangle<double>& t = r.triangles[at.triangle];
+    if (std::ranges::all_of(t.v, [&](const WindowVertex<double>& v) { return is_code(v.color); })) return 0;
+    const Vec3<double> shares = glm::abs(barycentrics(t, at.x + 0.5, at.y + 0.5).value);
+    return 0.5 * one() * std::max(1.0, shares.x + shares.y + shares.z);
+  }
   bool is_code(const Vec4<double>& color) const {
     constexpr double kFloat = 0x1p-16;  // of a code, in float [codes]
     const Vec4<double> codes = scale_ * color;
@@ -79,13 +94,15 @@ void move(auto& theirs, const auto& mine, auto color_of, auto change_of) {
 const Records<double>& with_rounded_colors(const SceneJudgement& c, Stage stage, const Records<double>& theirs,
                                            Records<double>& made) {
   const Records<double>& mine = c.candidate.records;
-  const bool has_codes = c.foreign && has_codes_of_fragments(c.scene.frame, c.conventions);
-  if (!has_codes || (stage != Stage::attributes && stage != Stage::shade)) return theirs;
+  const bool of_fragments = has_codes_of_fragments(c.scene.frame, c.conventions),
+             of_vertices = has_codes_of_vertices(c.scene.frame, c.conventions) && stage == Stage::attributes;
+  if (!c.foreign || !(of_fragments || of_vertices) || (stage != Stage::attributes && stage != Stage::shade))
+    return theirs;
   made = theirs;
   const CodeRoundings roundings(c);
   const auto color = [](auto& record) -> auto& { return record.color; };
   const auto itself = [](auto& record) -> auto& { return record; };
-  const auto of_attribute = [&](std::size_t) { return roundings.of_attribute(); };
+  const auto of_attribute = [&](std::size_t i) { return roundings.of_attribute(i); };
   if (stage == Stage::attributes) {
     move(made.attributes, mine.attributes, color, of_attribute);
     for (const Varying v : kAllVaryings) {

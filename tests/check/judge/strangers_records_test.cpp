@@ -66,6 +66,26 @@ TEST(StrangersRecords, InterpolatedColorsMayBeCodes) {
   EXPECT_FALSE(drawn([](Vec4<double>& color) { color.x = NAN; }, in_codes()));
 }
 
+// Colours of vertices become codes after the records of corners, or before.
+TEST(StrangersRecords, InterpolatedColorsMayBeBetweenCodes) {
+  C vertices;
+  vertices.vertex_colors = C::ColorNumbers::in_codes;
+  const Scene scene = suite_scene("light/sphere_gouraud");
+  const Capture drawn = test::make_vertices_in_codes()->capture(scene, {.records = StageSet::all()});
+  Capture before = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
+  before.records.attributes = drawn.records.attributes;
+  const auto is_held = [&](const Capture& capture, double off, const C& conventions) {
+    Capture moved = capture;
+    for (Attributes<double>& a : moved.records.attributes) a.color.x += off / 255;
+    return check::holds(row_of_stage(scene, moved, Stage::attributes, conventions).outcome);
+  };
+  EXPECT_TRUE(is_held(drawn, 0, vertices));
+  EXPECT_FALSE(is_held(drawn, 0.1, vertices)) << "corners that are codes are not rounded again";
+  EXPECT_TRUE(is_held(before, 0, vertices));
+  EXPECT_FALSE(is_held(before, 0, C()));
+  EXPECT_FALSE(is_held(before, 1.1, vertices));
+}
+
 TEST(StrangersRecords, TexelsMayBeCodes) {
   const auto drawn = [](const char* scene, double by, const C& conventions) {
     return holds(scene, Stage::texture, conventions, [=](Capture& capture) {
