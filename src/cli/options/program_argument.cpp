@@ -37,8 +37,15 @@ std::size_t given(const std::string& from) {
   return from.empty() ? 0 : static_cast<std::size_t>(from == "clip" ? Stage::clip : Stage::coverage);
 }
 
-// The records of the export stand for what the program might have left of these stages.
-void give(const std::string& from, const Scene& scene, Capture& left) {
+// Whether the export's window.snapped are on the declared grid.
+bool has_exported_grid(const Conventions& conventions) {
+  return conventions.subpixel_bits == Conventions().subpixel_bits &&
+         conventions.subpixel_rounding == Conventions::Rounding::nearest;
+}
+
+// The records of the export stand for what the program might have left of these stages. A program of another grid snaps
+// p_win itself, by its conventions.
+void give(const std::string& from, const Conventions& conventions, const Scene& scene, Capture& left) {
   Records<double> ours = exported_stages(scene).ours.records;
   Records<double>& r = left.records;
   r.matrices = std::move(ours.matrices), r.lights = std::move(ours.lights), r.vertices = std::move(ours.vertices);
@@ -49,6 +56,7 @@ void give(const std::string& from, const Scene& scene, Capture& left) {
   for (const char* column : {"clip.cut", "window.snapped", "window.front", "window.corners", "window.width"}) {
     left.derived.erase(column);
   }
+  if (!has_exported_grid(conventions)) left.derived.insert("window.snapped");
   r.polygons = std::move(ours.polygons), r.triangles = std::move(ours.triangles);
   for (const Varying v : kAllVaryings) {
     r.varyings[v].clipped = std::move(ours.varyings[v].clipped);
@@ -82,7 +90,9 @@ ProcessSpec spec_of(const ProgramArgument& program) {
   ProcessSpec spec;
   spec.conventions = conventions_of(program.conventions);
   if (!program.from.empty()) {
-    spec.give = [from = program.from](const Scene& scene, Capture& left) { give(from, scene, left); };
+    spec.give = [from = program.from, by = spec.conventions](const Scene& scene, Capture& left) {
+      give(from, by, scene, left);
+    };
   }
   spec.name = "program";
   spec.shown = command;
