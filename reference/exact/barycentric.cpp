@@ -27,8 +27,9 @@ std::array<Point, 3> positions(const WindowTriangle<double>& triangle) {
   }
   if (triangle.corners < 3) return unsnapped;
   const Float128 area = doubled_area(unsnapped);
-  const bool same_facing = facing(snapped_corners(triangle)) > 0 ? area > 0 : area < 0;
-  return same_facing ? unsnapped : snapped;
+  const auto on_grid = facing(snapped_corners(triangle));
+  const bool faces_otherwise = on_grid > 0 ? !(area > 0) : on_grid < 0 && !(area < 0);
+  return faces_otherwise ? snapped : unsnapped;
 }
 
 }  // namespace

@@ -75,6 +75,9 @@ glm::vec4 kept_color(ColorFormat format, glm::dvec4 color) {
   return glm::vec4(format == ColorFormat::rgba32f ? color : glm::clamp(color, 0.0, 1.0));
 }
 
+/// Whether each pixel's winner alone leaves its colour and depth.
+bool shows_winners_alone(const Scene& scene) { return colors_replace(scene) && depths_replace(scene); }
+
 /// Fragments that passed, by the winners `id`: those of the winning primitive at each pixel.
 std::vector<Drawn> drawn_by_winners(const Scene& scene, const Records<double>& records, const Plane<std::int32_t>& id) {
   const FrameFormat& frame = scene.frame;
@@ -182,9 +185,10 @@ void merge_fragments(const Scene& scene, const Capture& in, Capture& out) {
   const Records<double>& records = in.records;
   require_size("records.shaded", records.shaded.size(), records.covered.size());
   Plane<std::uint8_t> stencil;  // stage 10's result, not needed here
+  const bool by_winners = !in.planes.id.empty() && shows_winners_alone(scene);
   const std::vector<Drawn> drawn = !records.drawn.empty() ? records.drawn
-                                   : in.planes.id.empty() ? drawn_fragments(scene, records, stencil)
-                                                          : drawn_by_winners(scene, records, in.planes.id);
+                                   : by_winners           ? drawn_by_winners(scene, records, in.planes.id)
+                                                          : drawn_fragments(scene, records, stencil);
   require_size("records.drawn", drawn.size(), records.covered.size());
   TestedFrame tested(scene.frame);
   ColorBuffer color(scene);

@@ -5,21 +5,9 @@
 
 namespace plumbline::math {
 
-namespace {
-
-/// Equality of the state that decides a triangle's depth: transforms, depth state, and state by which renderers may
-/// choose another program (light, shading, texture, fog).
-bool same_placement(const Draw& a, const Draw& b) {
-  return a.transforms == b.transforms && a.depth_range == b.depth_range && a.polygon_offset == b.polygon_offset &&
-         a.lit == b.lit && a.shading == b.shading && a.texture.has_value() == b.texture.has_value() &&
-         a.fog.has_value() == b.fog.has_value();
-}
-
-}  // namespace
-
 bool Repeated::same(std::uint32_t a, std::uint32_t b) const {
   const Triangle &of_a = projected_.triangles[a], &of_b = projected_.triangles[b];
-  if (of_a.draw != of_b.draw && !same_placement(scene_.draws[of_a.draw], scene_.draws[of_b.draw])) return false;
+  if (of_a.draw != of_b.draw && !placed_alike(scene_.draws[of_a.draw], scene_.draws[of_b.draw])) return false;
   const auto position = [&](const Triangle& t, std::size_t k) -> const glm::vec3& {
     return scene_.meshes[scene_.draws[t.draw].mesh].positions[t.corner[k] - ranges_[t.draw].first_vertex];
   };

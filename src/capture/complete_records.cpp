@@ -58,7 +58,9 @@ Vec3<double> unit(const Vec3<double>& v) {
   return length > 0 ? v / length : v;
 }
 
+// Normals of draws that are lit per fragment are those that fragments' are interpolated from, where these are shown.
 void derive_normals(const DrawIndex& draws, Records<double>& r) {
+  const std::vector<Vec4<double>>& carried = r.varyings[Varying::normal].vertices;
   if (r.matrices.size() != draws.ranges().size())
     throw std::invalid_argument("vertex.n_eye: left out, and matrices.* are not there for all draws");
   if (r.vertices.size() != draws.vertices())
@@ -68,7 +70,13 @@ void derive_normals(const DrawIndex& draws, Records<double>& r) {
     const Draw& draw = draws.scene().draws[d];
     const Mesh& mesh = draws.scene().meshes[draw.mesh];
     const Mat3<double>& by = r.matrices[d].normal;
+    const bool are_carried = carries(draws.scene(), draw, Varying::normal) && carried.size() == draws.vertices();
     for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
+      if (are_carried) {
+        const std::size_t i = draws.ranges()[d].first_vertex + v;
+        r.vertices[i].n_eye = Vec3<double>(carried[i]);
+        continue;
+      }
       const Vec3<double> n = by * Vec3<double>(mesh.normals[v]);
       r.vertices[draws.ranges()[d].first_vertex + v].n_eye = draw.normals == Normals::normalize ? unit(n)
                                                              : draw.normals == Normals::rescale
@@ -190,6 +198,14 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
 // of 2^-24 are 1/32 of a code.
 double code_roundings(double codes) { return codes < 0x1p20 ? 0x1p-21 : 0x1p-50; }
 
+// Codes of depths that were read from f32. Depths that are not all floats of codes stay: they are not rounded yet.
+void find_codes(double codes, std::vector<double>& depths) {
+  const auto code = [=](double z) { return std::nearbyint(z * codes) / codes; };
+  const auto is_float_of_code = [&](double z) { return static_cast<float>(code(z)) == static_cast<float>(z); };
+  if (codes == 0 || !std::ranges::all_of(depths, is_float_of_code)) return;
+  for (double& z : depths) z = code(z);
+}
+
 // ---- order
 
 // Sorts all groups whose records belong to triangles, or to fragments, by the order; except coverage, from which the
@@ -284,7 +300,9 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
     if (format == DepthFormat::z32f && std::abs(z) <= static_cast<double>(std::numeric_limits<float>::max()))
       z = static_cast<double>(static_cast<float>(z));
   }
-  capture.depth_in_float = false;
+  if (capture.fragment_depths_in_float && conventions.depth_rounding == Conventions::Rounding::nearest)
+    find_codes(codes, r.depth);
+  capture.depth_in_float = capture.fragment_depths_in_float = false;
 }
 
 }  // namespace plumbline

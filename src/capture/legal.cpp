@@ -207,6 +207,12 @@ class BranchedFold {
 
 }  // namespace
 
+bool placed_alike(const Draw& a, const Draw& b) {
+  return a.transforms == b.transforms && a.depth_range == b.depth_range && a.polygon_offset == b.polygon_offset &&
+         a.lit == b.lit && a.shading == b.shading && a.texture.has_value() == b.texture.has_value() &&
+         a.fog.has_value() == b.fog.has_value();
+}
+
 LegalFold::LegalFold(const FrameFormat& frame) : format_(frame.depth), background_(background(frame)) { clear(); }
 
 void LegalFold::clear() {

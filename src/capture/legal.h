@@ -23,6 +23,10 @@ inline constexpr std::int32_t kBackground = -1;  ///< primitive number of a pixe
 /// Surface number of a hit whose depth is not certain to equal any other hit's.
 inline constexpr std::int32_t kNoSurface = -1;
 
+/// Equality of the state that decides a primitive's depth: transforms, depth state, and state by which renderers may
+/// choose another program (light, shading, texture, fog).
+bool placed_alike(const Draw& a, const Draw& b);
+
 /// One triangle at one pixel.
 struct Hit {
   std::uint32_t primitive = 0;

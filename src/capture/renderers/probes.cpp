@@ -122,6 +122,8 @@ Scene primitive_alone(const Scene& scene, std::uint32_t primitive, DepthFunc fun
   draw.mesh = 0;
   draw.stencil.reset();
   draw.depth_func = func;
+  draw.depth_range = {};  // another, and an offset, may leave the cleared depth
+  draw.polygon_offset = {};
   Mesh& alone = out.meshes.emplace_back();
   alone.topology = mesh.topology;
   add_primitive(mesh, mesh.triangles[primitive - draws.ranges()[number].first_primitive], glm::vec4(1), alone);

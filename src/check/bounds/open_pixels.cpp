@@ -179,8 +179,19 @@ LegalWinners::LegalWinners(const Scene& scene, const Records<double>& records)
       offsets_(scene),
       fragments_(FragmentsByPixel::covered(scene.frame, records)) {}
 
+bool LegalWinners::is_drawn_again(std::size_t a, std::size_t b) const {
+  const WindowTriangle<double>&of_a = records_.triangles[records_.covered[a].triangle],
+        &of_b = records_.triangles[records_.covered[b].triangle];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (of_a.v[k].p_win != of_b.v[k].p_win) return false;
+  }
+  return of_a.corners == of_b.corners && of_a.width == of_b.width &&
+         placed_alike(*draws_.draw(of_a.primitive), *draws_.draw(of_b.primitive));
+}
+
 std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
   std::vector<Hit> hits;
+  std::vector<std::size_t> at;  // the hits' fragments
   fragments_.each(x, y, [&](std::size_t i) {
     const WindowTriangle<double>& triangle = records_.triangles[records_.covered[i].triangle];
     const Draw* draw = draws_.draw(triangle.primitive);
@@ -202,6 +213,12 @@ std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
       hit.alpha_fails = !known || test.may_fail;
     }
     if (draw->stencil) hit.stencil = triangle.front ? &draw->stencil->front : &draw->stencil->back;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      if (records_.depth[at[k]] != z || !is_drawn_again(at[k], i)) continue;
+      if (hits[k].surface == kNoSurface) hits[k].surface = static_cast<std::int32_t>(k);
+      hit.surface = hits[k].surface;
+    }
+    at.push_back(i);
   });
   std::vector<LegalAnswer> out;
   fold_hits(hits, scene_.frame, out);

@@ -51,6 +51,8 @@ class LegalWinners {
   std::vector<LegalAnswer> at(int x, int y) const;
 
  private:
+  /// Whether fragment b is of the same line or point as fragment a, drawn again.
+  bool is_drawn_again(std::size_t a, std::size_t b) const;
   const Scene& scene_;
   const Records<double>& records_;
   DrawIndex draws_;

@@ -14,12 +14,14 @@ namespace plumbline::check {
 
 Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal) {
   std::string why;
-  if (!same_size(candidate.id_sum, reference.id_sum, why) || !same_size(candidate.id_sum, candidate.count, why))
+  const bool counts_alone = candidate.id_sum.empty() && !reference.id_sum.empty();
+  if (!counts_alone &&
+      (!same_size(candidate.id_sum, reference.id_sum, why) || !same_size(candidate.id_sum, candidate.count, why)))
     return mismatch("fragments", why, candidate.id_sum.size());
   const auto compare = [&](const Legal& open) {
     return compare_planes(candidate.count, reference.count, "fragments", [&](Meter& meter, int x, int y) {
       const double a = candidate.count(x, y), b = reference.count(x, y);
-      const bool other = a == b && candidate.id_sum(x, y) != reference.id_sum(x, y);
+      const bool other = !counts_alone && a == b && candidate.id_sum(x, y) != reference.id_sum(x, y);
       if ((a != b || other) && is_open(open, candidate, x, y)) return meter.ambiguous();
       meter.value(difference(a, b), 0, {x, y, -1, "count"}, a, b);
       meter.value(other ? 1 : 0, 0, {x, y, -1, "fragments of other primitives"}, other ? 1 : 0, 0);

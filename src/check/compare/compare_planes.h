@@ -11,7 +11,8 @@
 
 namespace plumbline::check {
 
-/// Compares overdraw counts and sums of weights (planes.count, planes.id_sum), tolerance 0. A pixel is open where
+/// Compares overdraw counts and sums of weights (planes.count, planes.id_sum), tolerance 0; counts alone where the
+/// candidate shows no sums. A pixel is open where
 /// `legal` (empty: nowhere) allows several counts, the candidate's among them. If a pixel that is not open differs,
 /// differences at open pixels are ambiguous; if open pixels alone differ, these pixels count as different.
 Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal = {});

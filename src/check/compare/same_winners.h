@@ -21,12 +21,19 @@ struct Winner {
   bool operator==(const Winner&) const = default;
 };
 
-/// Compares winners, with stencil values where `stencils` says so. Where two winners differ, is_open(meter, x, y, a, b,
-/// held) tells whether both are legal; `held`: stencil values count.
+/// Compares winners, with stencil values where `stencils` says so; without a plane of winners, stencil values alone.
+/// Where two winners differ, is_open(meter, x, y, a, b, held) tells whether both are legal; `held`: stencil values
+/// count.
 inline Measurement compare_winners_at_pixels(const Planes& a, const Planes& b, Stencils stencils, auto is_open) {
   const bool held = stencils == Stencils::compared && !a.stencil.empty();
   if (stencils == Stencils::compared && a.stencil.size() != b.stencil.size())
     return mismatch("pixels", "stencil values of one side alone", a.id.size());
+  if (held && a.id.empty() && !b.id.empty()) {
+    return compare_planes(a.stencil, b.stencil, "pixels", [&](Meter& meter, int x, int y) {
+      const int mine = a.stencil(x, y), theirs = b.stencil(x, y);
+      meter.value(mine == theirs ? 0 : 1, 0, {x, y, -1, "stencil"}, mine, theirs);
+    });
+  }
   return compare_planes(a.id, b.id, "pixels", [&](Meter& meter, int x, int y) {
     const auto winner = [&](const Planes& of) { return Winner{of.id(x, y), held ? of.stencil(x, y) : 0}; };
     const Winner mine = winner(a), theirs = winner(b);

@@ -17,16 +17,20 @@ std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
   return fmt::format("{} ambiguous, {:.1f} predicted", ambiguous, legal.predicted_ambiguous);
 }
 
-// Cracks and double paint: a sample on edges that triangles share is in one of them, whatever the tie rule.
+// Cracks and double paint: a sample on edges that triangles share is in one of them, whatever the tie rule. None are
+// named where as many other samples differ: triangles are missing, or too many.
 std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
-  std::size_t cracks = 0, twice = 0;
+  std::size_t cracks = 0, twice = 0, others = 0;
   if (count.size() != legal.shared.size()) return "";
   for (std::size_t i = 0; i < count.size(); ++i) {
-    if (legal.shared.values()[i] == 0) continue;
-    cracks += count.values()[i] < legal.certain.values()[i] ? 1 : 0;
-    twice += count.values()[i] > legal.possible.values()[i] ? 1 : 0;
+    const bool is_less =
+        count.values()[i]<legal.certain.values()[i], is_more = count.values()[i]> legal.possible.values()[i],
+               is_shared = legal.shared.values()[i] != 0;
+    cracks += is_shared && is_less ? 1 : 0;
+    twice += is_shared && is_more ? 1 : 0;
+    others += !is_shared && (is_less || is_more) ? 1 : 0;
   }
-  if (cracks + twice == 0) return "";
+  if (cracks + twice <= others) return "";
   return fmt::format(
       "on edges that triangles share {} samples are in none of them (cracks), {} in too many (painted twice)", cracks,
       twice);

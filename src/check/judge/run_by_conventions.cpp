@@ -91,8 +91,12 @@ Scene mirrored(const Scene& scene, Mirror by) {
   for (Draw& draw : out.draws) {
     if (!draw.scissor) continue;
     Scissor& box = *draw.scissor;
-    if (by.x) box.x = scene.frame.width - (box.x + box.width);
-    if (by.y) box.y = scene.frame.height - (box.y + box.height);
+    const int right = std::min(box.x + box.width, scene.frame.width),
+              top = std::min(box.y + box.height, scene.frame.height);
+    box.x = std::min(box.x, right), box.width = right - box.x;
+    box.y = std::min(box.y, top), box.height = top - box.y;
+    if (by.x) box.x = scene.frame.width - right;
+    if (by.y) box.y = scene.frame.height - top;
   }
   return out;
 }
@@ -250,6 +254,27 @@ Capture test_in_float(Renderer& referee, const Scene& scene, const Capture& in) 
   return out;
 }
 
+// Number of the fragments drawn, and of the winners, that differ. Records and planes of other sizes are not compared.
+std::size_t apart(const Capture& a, const Capture& b) {
+  std::size_t out = 0;
+  const auto &drawn = a.records.drawn, &others = b.records.drawn;
+  for (std::size_t i = 0; i < drawn.size() && drawn.size() == others.size(); ++i)
+    out += drawn[i].drawn != others[i].drawn ? 1 : 0;
+  const auto &id = a.planes.id.values(), &other_id = b.planes.id.values();
+  for (std::size_t i = 0; i < id.size() && id.size() == other_id.size(); ++i) out += id[i] != other_id[i] ? 1 : 0;
+  return out;
+}
+
+// Fragments' tests by the declared alpha test. Either: by codes or by floats, whichever fits `in` better.
+Capture test_alpha(Renderer& referee, const Scene& scene, const Capture& in, C::AlphaTest declared) {
+  if (declared == C::AlphaTest::in_float) return test_in_float(referee, scene, in);
+  Capture by_codes = referee.run_stage(scene, Stage::visibility, in);
+  const std::size_t off = declared == C::AlphaTest::either ? apart(by_codes, in) : 0;
+  if (off == 0) return by_codes;
+  Capture by_floats = test_in_float(referee, scene, in);
+  return apart(by_floats, in) < off ? by_floats : by_codes;
+}
+
 // ---- merge
 
 }  // namespace
@@ -334,8 +359,8 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
     case Stage::texture: return interpolate(referee, scene, stage, in, conventions);
     case Stage::visibility: {
       const bool has_alphas = r.depth.size() == r.covered.size() && r.shaded.size() == r.covered.size();
-      if (!tests_alpha(scene) || !has_alphas || conventions.alpha_test != C::AlphaTest::in_float) break;
-      return test_in_float(referee, scene, in);
+      if (!tests_alpha(scene) || !has_alphas) break;
+      return test_alpha(referee, scene, in, conventions.alpha_test);
     }
     case Stage::merge: {
       const bool is_opengls =

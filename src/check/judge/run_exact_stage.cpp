@@ -109,14 +109,15 @@ void close_illegal(const SceneJudgement& c, Plane<std::uint8_t>& open) {
   }
 }
 
+Measurement visible_by_exact(const SceneJudgement& c, const Capture& made) {
+  return worse(compare_winners(c.candidate.planes, made.planes, Legal{}, c.stencils()),
+               compare_drawn(c.candidate.records, made.records));
+}
+
 // Winners and fragments drawn. Of a foreign candidate, pixels are ambiguous where its depth buffer may be of double
 // (open_by_double) and the oracle calls the winner legal.
 void compare_visible(const SceneJudgement& c, const Capture& made, const JudgeId& name) {
-  const auto compare = [&](const Capture& theirs) {
-    return worse(compare_winners(c.candidate.planes, theirs.planes, Legal{}, c.stencils()),
-                 compare_drawn(c.candidate.records, theirs.records));
-  };
-  Measurement m = compare(made);
+  Measurement m = visible_by_exact(c, made);
   if (c.foreign && m.differing > 0) {
     Plane<std::uint8_t> open = open_by_double(c.scene.frame, c.candidate.records);
     close_illegal(c, open);
@@ -125,7 +126,7 @@ void compare_visible(const SceneJudgement& c, const Capture& made, const JudgeId
     settled.records.drawn = made.records.drawn;
     const std::uint64_t pixels = copy_open_pixels(open, c.candidate.planes, settled.planes);
     copy_open_drawn(open, c.candidate.records, settled.records);
-    m = compare(settled);
+    m = visible_by_exact(c, settled);
     m.ambiguous += pixels;
   }
   c.add(name, Stage::visibility, std::move(m), nullptr, c.note_of_winners());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "check/bounds/open_pixels.h"
+
 namespace plumbline::check {
 
 bool has_plane(const Planes& planes, Stage stage) {
@@ -54,7 +56,9 @@ std::string lacking_per_stage(const Scene& scene, const RendererInfo& candidate,
   const bool has_planes = stage == Stage::coverage || stage >= Stage::visibility;
   if (!candidate[stage].shows) return candidate[stage].reason;
   if (candidate[stage].planes_alone && !has_planes) return "it shows planes, no records";
-  return lacking_records(scene, candidate, inputs_of(stage));
+  StageSet inputs = inputs_of(stage);
+  if (stage == Stage::visibility && !tests_alpha(scene)) inputs = {Stage::window, Stage::coverage, Stage::depth};
+  return lacking_records(scene, candidate, inputs);
 }
 
 }  // namespace plumbline::check
