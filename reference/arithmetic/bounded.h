@@ -13,9 +13,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 inline constexpr double kFloatRounding = 1.0 / (1 << 24);  ///< u, the unit roundoff of float: half an ULP of 1
 
-/// Absolute error of one rounding below float's smallest normal number, 2^-126, where u of the number is too little.
-/// Gradual underflow (IEEE 754, 7.5): half of the smallest step, 2^-149. Flushed: numbers below 2^-126 become 0, as
-/// operands and as results; Mesa sets the processor so for its vertices and for llvmpipe (util_fpstate).
+/// Absolute error of one rounding to a result below float's smallest normal number, 2^-126, where u of the result is
+/// too little. Gradual underflow (IEEE 754, 7.5): half of the smallest step, 2^-149. Flushed: numbers below 2^-126
+/// become 0, as operands and as results; Mesa sets the processor so for its vertices and for llvmpipe (util_fpstate).
 inline constexpr double kGradualUnderflow = 0x1p-150, kFlushedUnderflow = 0x1p-126;
 
 /// Rounding error of a computation in float.

@@ -14,7 +14,7 @@ namespace {
 glm::dvec3 terms(const glm::dmat3& m, glm::dvec3 v) {
   return glm::abs(m[0] * v.x) + glm::abs(m[1] * v.y) + glm::abs(m[2] * v.z);
 }
-// Error of m p [u of its terms]: entries 1, product 3, the matrix' own product 2 spare.
+// Length of the error of m p: 6 u of its terms, of which the entries take 1, the product 3, the matrix' own product 2.
 double place_error(const glm::dmat4& m, glm::dvec3 p) {
   return 6 * kFloatRounding * glm::length(terms(glm::dmat3(m), p) + glm::abs(glm::dvec3(m[3])));
 }

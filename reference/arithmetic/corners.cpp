@@ -14,7 +14,7 @@ namespace plumbline::math {
 
 namespace {
 
-/// A matrix entry below this is 0 in float (float_matrices()): an error of its whole size, 2^24 roundings.
+/// Limit below which a matrix entry becomes 0 in float (float_matrices()): an error of the whole entry, 2^24 roundings.
 constexpr double kZeroEntry = 1e-12;
 
 glm::dmat4 sizes(const glm::dmat4& m) {

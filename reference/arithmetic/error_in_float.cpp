@@ -24,15 +24,16 @@ WindowCorners window_corners(const Projected& scene, const Triangle& t) {
   return out;
 }
 
-// Pieces near a ray d: any three corners of an outline, within twice their displacement and `margin` [pixels] of d.
+// Choice of pieces near a ray d: any three corners of an outline, within twice their displacement plus `margin`
+// [pixels] of d.
 struct Near {
   glm::dvec3 d;
   double margin;
   double without_area;  // error of a piece that may have no area
 };
 
-// Largest error(corners) of the pieces near a ray; infinite where none is. Corners displaced by `reach`: terms and area
-// change by 4 reach / altitude.
+// Largest error(corners) of the pieces near a ray; infinite where no piece is near. Displacing the corners by `reach`
+// changes terms and area by 4 reach / altitude.
 template <class Error>
 double error_near(const Projected& scene, const Triangle& t, std::span<const glm::dvec2> outline, const Near& near,
                   Error error) {

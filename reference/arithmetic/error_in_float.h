@@ -15,10 +15,10 @@ struct PieceAltitudes {
 /// infinite where a piece may have no area.
 double error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d, const PieceAltitudes& altitudes);
 
-/// Relative error at the ray d of an attribute's numerator or denominator: shares_error() of the whole triangle, unless
-/// it reaches behind the eye; of a cut triangle also the error of a plane in its pieces, of values of at most 1 and
-/// that `slope` [1 / pixel]. Pieces that may have no area are left out: their bound would allow any colour, and so hide
-/// wrong cuts.
+/// Relative error of an attribute's numerator or denominator at the ray d: shares_error() of the whole triangle, if it
+/// is wholly before the eye; of a cut triangle, if larger, the error of a plane in a piece, of values of at most 1 and
+/// of that `slope` [1 / pixel]. Leaves out pieces that may have no area: their bound would allow any colour, and so
+/// hide wrong cuts.
 double shares_error_in_float(const Projected& scene, const Triangle& triangle, glm::dvec3 d,
                              const PieceAltitudes& altitudes, double slope);
 

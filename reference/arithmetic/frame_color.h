@@ -31,12 +31,12 @@ glm::dvec4 middle(const ColorInterval& color);
 /// True: the factors sum to 1, so that a renderer may have s a + d (1 - a) as d + a (s - d).
 bool are_complements(BlendFactor a, BlendFactor b);
 
-/// Numbers that a renderer blends in; their roundings decide to which code a sum half way between two goes.
+/// Numbers that a renderer blends in. Their roundings decide which of two codes a sum half way between the two becomes.
 enum class BlendedIn { doubles, floats };
 
 class FrameColor {
  public:
-  /// A pixel of the clear colour. Where renderers blend in codes, each factor and each product may be half a code off.
+  /// A pixel of the clear colour. `blending` in_codes: `rounding` makes codes of each factor and of each product, too.
   /// `rounding`: of colours to the codes that are stored and read again.
   explicit FrameColor(const FrameFormat& frame, Conventions::Blending blending = Conventions::Blending::in_float,
                       Conventions::Rounding rounding = Conventions::Rounding::nearest,
@@ -47,7 +47,7 @@ class FrameColor {
   void write(const Merge& state, const ColorInterval& color);
 
   /// Colour last written to each channel, clamped to the format's range, not rounded to codes [1: the largest code].
-  /// Logic op: the middle of the colours that round to its code. rgba32f: rounded to float.
+  /// After a logic op: the middle of the colours that round to the op's code. rgba32f: rounded to float.
   ColorInterval written() const;
 
  private:

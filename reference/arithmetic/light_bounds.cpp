@@ -43,8 +43,8 @@ double moved_power(double x, double s, double error) {
   return std::max(at(x + error) - at(x), at(x) - at(x - error));
 }
 
-// Attenuation times spot factor of a light: value, error [units of kError], `beyond` (the value where rounding may put
-// the vertex on either side of the cone's border, else 0), and the inputs' effect (`inherited`).
+// Attenuation times spot factor of a light: its value, its error [units of kError], `beyond` (the value where rounding
+// may put the vertex on either side of the cone's border, else 0), and the effect of the inputs' errors (`inherited`).
 struct Share {
   double value = 1, error = 0, beyond = 0;
   double inherited = 0;

@@ -38,8 +38,8 @@ struct LightInputs {
   double p_eye = 0, n_eye = 0, color = 0;
   std::span<const double> lights{};
 };
-/// Bounds at a vertex. `material`: the draw's there (light.h). `lights`: recorded ones; the scene's for those that are
-/// missing.
+/// Bounds at a vertex. `material`: the draw's at the vertex (light.h). `lights`: the recorded lights; the scene's own
+/// stand in for those that are not recorded.
 LightBounds light_bounds(const Scene& scene, const DoubleMaterial& material, const Vertex<double>& vertex,
                          const LightInputs& errors = {}, Lights lights = {});
 

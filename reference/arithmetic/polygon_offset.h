@@ -10,7 +10,7 @@ namespace plumbline::math {
 long double offset_unit(DepthFormat format, const Conventions& conventions, double largest_z);
 
 /// Offset of a triangle whose other members project() has set. `half`: infinite where the triangle has no reliable
-/// plane. r of formats with codes: by the conventions.
+/// plane. r of every format: offset_unit().
 OffsetBounds polygon_offset(const Projected& scene, const Triangle& triangle, const PolygonOffset& offset);
 
 }  // namespace plumbline::math

@@ -168,8 +168,8 @@ std::array<const Corner*, 3> corners_of(const Projected& scene, const Triangle& 
   return {&scene.corners[t.corner[0]], &scene.corners[t.corner[1]], &scene.corners[t.corner[2]]};
 }
 
-/// Sets `cuts` and `cut`, of the planes that may cut off a corner; a plane that a corner lies on may. Returns true if
-/// the near or the far plane is among them.
+/// Sets `cuts` and `cut` by the planes that may cut off a corner; a plane through a corner may. Returns true if the
+/// near or the far plane is among these planes.
 bool set_cuts(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   std::array<bool, 6> may_cut{};
   for (const Corner* corner : c) {
@@ -256,8 +256,8 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   set_extent(scene, draw, c, part, cut_in_depth, t);
 }
 
-/// The triangle between its corners' places on the grid, for a renderer that interpolates between these. nullopt: a
-/// place is open, a plane may cut the triangle, or float or the grid may change its area or facing.
+/// Copy of the triangle between its corners' places on the grid, for a renderer that interpolates between these places.
+/// nullopt: a place is open, a plane may cut the triangle, or float or the grid may change its area or facing.
 std::optional<Triangle> on_grid(const Projected& scene, const Draw& draw, CornersOnGrid& copies, const Triangle& t) {
   const Conventions& conventions = scene.conventions;
   const bool goes_by_grid = conventions.attribute_corners == Conventions::Corners::snapped && settles_grid(conventions);

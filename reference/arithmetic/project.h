@@ -37,8 +37,8 @@ GridPoints grid_points(const Projected& scene, const Corner& corner);
 /// The corner on the grid; nullopt: it may be snapped to several grid points.
 std::optional<Corner> on_grid(const Projected& scene, const Corner& corner);
 
-/// delta [pixels]: displacement by snapping, plus the length of float_displacement() by the largest error of any of the
-/// triangle's points.
+/// Largest displacement of the triangle's outline at the ray d [pixels]: by snapping, plus the length of the sum of
+/// float_displacement() (by the largest error of any of the triangle's points) and Triangle::stepped.
 double displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
 
 /// A piece of a segment a + t (b - a), t in [from, to]; empty if from > to.

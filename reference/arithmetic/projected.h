@@ -49,18 +49,17 @@ struct OffsetBounds {
 struct Triangle {
   std::array<std::uint32_t, 3> corner;  ///< indices into Projected::corners
   std::uint32_t draw = 0;
-  std::optional<std::uint32_t>
-      on_grid;                ///< index into Projected::on_grid; none: a corner may have several places there
-  double step = 0, snap = 0;  ///< Projected::step, snap; of a copy on the grid 0
-  bool drawn = false;         ///< false: no legal renderer draws any of it; members below may not be set
-  bool facing_kept = false;   ///< the draw does not cull its facing in double
-  bool thin = false;          ///< snapping may reverse its facing or make its area 0
-  bool flat = false;          ///< no area in double, and so no plane
-  bool cut = false;           ///< some renderer may cut it at the view volume
-  int cuts = 0;               ///< number of the view volume's planes that may cut it
-  bool ahead = false;         ///< w > 0 at all corners
-  bool loose = false;         ///< float arithmetic may move it anywhere in the window; `flat` is set, too
-  double sign = 0;            ///< of det
+  std::optional<std::uint32_t> on_grid;  ///< index into Projected::on_grid; none: the triangle has no copy on the grid
+  double step = 0, snap = 0;             ///< Projected::step, snap; of a copy on the grid 0
+  bool drawn = false;                    ///< false: no legal renderer draws any of it; members below may not be set
+  bool facing_kept = false;              ///< the draw does not cull its facing in double
+  bool thin = false;                     ///< snapping may reverse its facing or make its area 0
+  bool flat = false;                     ///< no area in double, and so no plane
+  bool cut = false;                      ///< some renderer may cut it at the view volume
+  int cuts = 0;                          ///< number of the view volume's planes that may cut it
+  bool ahead = false;                    ///< w > 0 at all corners
+  bool loose = false;                    ///< float arithmetic may move it anywhere in the window; `flat` is set, too
+  double sign = 0;                       ///< of det
   std::array<glm::dvec3, 3> n;
   std::array<double, 3> per_pixel;  ///< 1 / |(n_i.x, n_i.y)|: e_i times it is the distance to the edge's line
   glm::dvec3 z_plane;               ///< z_view = 1/2 + z_plane . d: 0 on the near plane, 1 on the far one
@@ -116,7 +115,7 @@ struct Projected {
   std::vector<Corner> corners;
   std::vector<Triangle> triangles;
   /// Copies of triangles between their corners' places on the declared grid, for renderers that interpolate between
-  /// these: coverage and attributes of such triangles go by the copy.
+  /// these places. A copy decides coverage and attributes of its triangle and, where depth_corners is snapped, depth.
   std::vector<Triangle> on_grid;
 
   /// Place of the renderer's own window that rays are counted from [pixels from the frame's lower left corner].

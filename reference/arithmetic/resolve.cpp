@@ -10,8 +10,8 @@ namespace {
 
 using Color = glm::dvec4;
 
-// The weighted mean of a pixel's samples, in codes where the frame has codes: their sums, with integer weights, are
-// exact, and so is the choice of the nearer code.
+// Weighted mean of a pixel's samples: in codes where the frame has codes, whose sums with integer weights are exact, so
+// that the nearer code is chosen exactly; else in the samples' own numbers.
 Color mean_codes(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples, int x, int y) {
   const double scale = color_scale(frame.color);
   Color sum(0);

@@ -10,7 +10,7 @@
 
 namespace plumbline::math {
 
-/// A renderer's conventions of levels and filters.
+/// Rules of levels of detail and filters, by a renderer's conventions (level_rules()).
 struct LevelRules {
   bool approximate = false;               ///< rho is approximated within OpenGL's limits (2.1, 3.8.8)
   bool magnified_to_zero = false;         ///< magnified up to a lambda of 0, whatever the filters
@@ -83,8 +83,8 @@ struct BoundedPlace {
   glm::dvec2 bound{0};  ///< on the errors of s and of t
   double lambda = 0, lambda_lo = 0, lambda_hi = 0;
 };
-/// textured_color() of a fragment and a place with bounds; the bound is infinite where (s, t) is too uncertain to tell
-/// the nearest texel.
+/// textured_color() of a fragment and a place with bounds. The bound is infinite where the error of (s, t) leaves open
+/// which texel is the nearest, or reaches half a texel of a linearly filtered level.
 BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedFour& fragment,
                                    const BoundedPlace& place, const LevelRules& rules = {});
 

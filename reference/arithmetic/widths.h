@@ -46,8 +46,8 @@ void each_piece(std::span<const glm::dvec2> polygon, auto visit) {
   }
 }
 
-/// Smallest altitude of the triangles of a polygon's corners that come within `margin` of the point [pixels]; infinite
-/// where none does.
+/// Smallest altitude [pixels] among the triangles of three of a polygon's corners that come within `margin` [pixels] of
+/// the point p; infinite where none does.
 inline double thinnest_piece(std::span<const glm::dvec2> polygon, glm::dvec2 p, double margin) {
   double out = std::numeric_limits<double>::infinity();
   each_piece(polygon, [&](const std::array<glm::dvec2, 3>& c) {

@@ -21,8 +21,8 @@ glm::dvec4 clip_plane(int index);
 /// triangles that share the edge share the cut. Colours are interpolated by the cut's parameter.
 std::vector<ClipVertex<double>> clip_triangle(const std::array<ClipVertex<double>, 3>& corners, int planes = kPlanes);
 
-/// Part of a line inside the first `planes` clip planes, the t in [0,1] for which a + t (b - a) is inside: no vertices,
-/// or two.
+/// Part of a line inside the first `planes` clip planes: the points a + t (b - a), t in [0,1], that are inside. Two
+/// vertices, or none.
 std::vector<ClipVertex<double>> clip_line(const ClipVertex<double>& a, const ClipVertex<double>& b,
                                           int planes = kPlanes);
 

@@ -10,7 +10,7 @@
 
 namespace plumbline::exact {
 
-/// Per-triangle input of depth_at(). Of the conventions, depth_rule() reads offset_unit.
+/// Per-triangle input of depth_at(). Of the conventions, depth_rule() reads offset_unit and float_offset_unit.
 struct DepthRule {
   glm::dvec2 place{0};       ///< sample offset from the pixel's centre [pixels]
   double low = 0, high = 1;  ///< range to which depths are clamped

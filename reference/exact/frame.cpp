@@ -12,8 +12,8 @@ using math::in_format;
 
 namespace {
 
-/// Comparison `a func b`. CompareFunc's values, in OpenGL's order, are bit sets of the relations that pass: less (1),
-/// equal (2), greater (4). NaN passes `always` only.
+/// Comparison `a func b`. The values of CompareFunc, in OpenGL's order, are sets of bits: the relations that pass are
+/// less (1), equal (2) and greater (4). NaN passes `always` only.
 bool passes(CompareFunc func, double a, double b) {
   const int relation = a < b ? 1 : a == b ? 2 : a > b ? 4 : 0;
   return func == CompareFunc::always || (static_cast<int>(func) & relation) != 0;
@@ -78,7 +78,7 @@ glm::vec4 kept_color(ColorFormat format, glm::dvec4 color) {
 /// Whether each pixel's winner alone leaves its colour and depth.
 bool shows_winners_alone(const Scene& scene) { return colors_replace(scene) && depths_replace(scene); }
 
-/// Fragments that passed, by the winners `id`: those of the winning primitive at each pixel.
+/// Drawn fragments by the winners `id`: at each pixel those of the winning primitive that pass in turn.
 std::vector<Drawn> drawn_by_winners(const Scene& scene, const Records<double>& records, const Plane<std::int32_t>& id) {
   const FrameFormat& frame = scene.frame;
   require_size("planes.id", id.size(), static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));

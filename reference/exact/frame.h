@@ -46,7 +46,8 @@ class ColorBuffer {
  public:
   explicit ColorBuffer(const Scene& scene);
   void write(int x, int y, const Merge& state, const glm::dvec4& color);
-  /// The colours; the middle of the interval where an earlier rounding may go either way. Leaves the plane unspecified.
+  /// Takes the colours: where an earlier rounding may go either way, the middle of the interval. The plane is
+  /// unspecified afterwards.
   Plane<glm::vec4> take();
   /// Sets the intervals of Legal (color_lo, color_hi); leaves them empty where no colour is blended or masked.
   void take_bounds(Legal& out) const;

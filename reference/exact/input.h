@@ -34,8 +34,8 @@ struct FragmentRun {
   std::uint32_t triangle;
   std::size_t first, last;
 };
-/// records.covered split by triangle; triangles without fragments have no run. Throws std::invalid_argument where the
-/// fragments are not in the triangles' order, or one names no triangle of the records or a pixel outside the frame.
+/// Runs of records.covered, one per triangle that has fragments. Throws std::invalid_argument where the fragments are
+/// not in the triangles' order, or one names no triangle of the records or a pixel outside the frame.
 std::vector<FragmentRun> runs_by_triangle(const Scene& scene, const Records<double>& records);
 
 }  // namespace plumbline::exact

@@ -16,7 +16,7 @@ class Selection {
 
   /// True if records of the primitive are requested.
   bool primitive(std::uint32_t number) const;
-  /// True if records of stages 5 to 10 are requested: fragments() at all, pixel() at this pixel.
+  /// True if records of stages 5 to 10 are requested: fragments(): at any pixel; pixel(): at this pixel.
   bool fragments() const { return bytes_ > 0; }
   bool pixel(int x, int y) const { return pixels_.empty() || pixels_(x, y) != 0; }
   std::size_t bytes_per_fragment() const { return bytes_; }

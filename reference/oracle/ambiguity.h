@@ -1,5 +1,5 @@
-// Predicted number of pixels with several legal answers, from the geometry alone. A count far above the prediction
-// shows that the oracle's bounds are too wide.
+// Prediction of the number of pixels with several legal answers, from the geometry alone. A count far above the
+// prediction shows that the oracle's bounds are too wide.
 #pragma once
 
 #include <cstdint>

@@ -20,9 +20,9 @@ Outcomes alpha_test(const AlphaTest& test, ColorFormat format, Conventions::Alph
   return {in_codes.may_pass || in_float.may_pass, in_codes.may_fail || in_float.may_fail};
 }
 
-/// Most pieces of a triangle that may cover the pixel of its hit. Possible hit of a cut triangle: two, as snapping may
-/// reverse a sliver of the fan, which then covers the pixel together with its neighbour. Inclusive tie rule: two on a
-/// diagonal of the fan; at the border seven, where all pieces may meet at one corner (9 corners).
+/// Largest number of a triangle's pieces that may cover the pixel of the hit. Possible hit of a cut triangle: two, as
+/// snapping may turn over a sliver of the fan, which then covers the pixel together with its neighbour. Inclusive tie
+/// rule: two on a diagonal of the fan; at the border seven, where all pieces of 9 corners may meet at one corner.
 std::uint32_t most_pieces(const Triangle& t, const PixelHit& hit, Conventions::TieRule rule) {
   if (!t.cut) return 1;
   if (rule != Conventions::TieRule::inclusive) return hit.hit.certain ? 1 : 2;

@@ -1,8 +1,8 @@
 // Coverage that declared conventions decide.
 //
-// Declared grid and tie rule (settles_ties()): coverage is open only where a corner may snap to several grid points, as
-// its position in double is within corner_displacement() (rounding down, up: plus kOfFixedPoint) of a position where
-// the rounding changes: the middle between two grid points (nearest), or a grid point (down, up). Coverage is known
+// Declared grid and tie rule (settles_ties()): coverage is open only where a corner may snap to several grid points. It
+// may where a position at which the rounding changes (nearest: the middle between two grid points; down, up: a grid
+// point) is within corner_displacement() of the corner in double (down, up: plus kOfFixedPoint). Coverage is known
 // where all combinations of the corners' grid points agree; the tie rule settles edge functions that are 0.
 #include <algorithm>
 #include <array>

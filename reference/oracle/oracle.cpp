@@ -99,8 +99,8 @@ std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHi
   return most;
 }
 
-/// Settles coverage at the pixel by the declared tie rule, and sets the least and the largest number of its fragments
-/// (Legal::certain, possible, shared).
+/// Settles coverage at the pixel by the declared tie rule, and sets the least and the largest number of fragments that
+/// legal renderers make there (Legal::certain, possible), and Legal::shared.
 void settle_pixel(const Projected& projected, std::vector<PixelHit>& hits, int x, int y, Legal& legal) {
   using enum Conventions::TieRule;
   const Conventions::TieRule rule = projected.conventions.tie_rule;
@@ -186,8 +186,8 @@ void color_answers(const Scene& scene, const Projected& projected, std::span<Pix
   }
 }
 
-/// Interval of the frame's colour where all these hits cover the pixel; nullopt: it is open which of their fragments
-/// are drawn, or how often, or the colour of one has no bound.
+/// Interval of the frame's colour where all these hits cover the pixel. nullopt: which of their fragments are drawn, or
+/// how often, is open, or the colour of one has no bound.
 std::optional<ColorInterval> color_of(const Scene& scene, const Projected& projected, std::span<const Hit> hits) {
   FrameColor color(scene.frame, projected.conventions.blending, projected.conventions.color_rounding,
                    BlendedIn::floats);
@@ -207,7 +207,7 @@ std::optional<ColorInterval> color_of(const Scene& scene, const Projected& proje
   return color.written();
 }
 
-/// All choices of the certain hits and one member of each group, as a flag per hit; empty: there are more than `most`.
+/// All choices of the certain hits and one member of each group, a flag per hit. Empty: there are more than `most`.
 std::vector<std::vector<bool>> choices(std::span<const Hit> hits, std::size_t most) {
   std::map<int, std::vector<std::size_t>> members;
   for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -226,8 +226,9 @@ std::vector<std::vector<bool>> choices(std::span<const Hit> hits, std::size_t mo
   return out;
 }
 
-/// Sets the legal interval of the frame's colour at a pixel; unbounded where the drawn fragments are open, but for the
-/// choice among a group's members. `is_counted`: each group makes one fragment, and all other hits are certain.
+/// Sets the legal interval of the frame's colour at a pixel. Unbounded where a drawn fragment's colour has no bound, or
+/// where more is open about the drawn fragments than a few choices of one member from each group. `is_counted`: each
+/// group makes one fragment, and all other hits are certain.
 void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, bool is_counted, int x,
                  int y, Legal& legal) {
   constexpr float kUnbounded = std::numeric_limits<float>::infinity();

@@ -24,7 +24,8 @@ struct Oracle {
 };
 
 /// Tests each candidate in double and finds the pixels' legal answers. `candidates` must have, in any order, every
-/// triangle with which a legal renderer may cover a pixel. Of the request, only `pixels` and `records` are read.
+/// triangle with which a legal renderer may cover a pixel. Of the request, reads `pixels`, `records` and
+/// `memory_budget`. Throws OverBudget where the legal answers exceed the budget.
 Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates, const Request& request);
 
 /// Number of candidates that fit the budget [bytes] beside planes and legal answers. Throws OverBudget where these

@@ -72,8 +72,8 @@ BoundedPlace place_in_texture(const Texture& texture, const PixelSite& site, con
   return out;
 }
 
-/// Largest excess beyond [0,1] of channels within [0,1] at all corners, by extrapolation beyond the triangle; a
-/// renderer may clamp or not.
+/// Largest excess beyond [0,1] of the channels that lie within [0,1] at all corners. Extrapolation beyond the triangle
+/// makes such an excess; a renderer may clamp it or not.
 double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corners) {
   double out = 0;
   for (glm::length_t c = 0; c < 4; ++c) {

@@ -88,9 +88,9 @@ bool is_at_cut(const PixelSite& site, bool at_diagonal, double delta) {
   return (rule == Conventions::TieRule::exclusive && at_diagonal) || is_at_side(site, delta);
 }
 
-/// Sets the depth interval: the plane's z at the pixel, displaced by up to h + delta_E (depth_corners may be snapped)
-/// or delta_E (as_they_are), plus the corners' depth error. `is_inside`: every legal renderer covers the pixel with the
-/// triangle's inside.
+/// Sets the depth interval: the plane's z at the pixel, plus or minus its change over a displacement of h + delta_E
+/// (delta_E where depth_corners is as_they_are), plus the corners' depth error. `is_inside`: every legal renderer
+/// covers the pixel with the triangle's inside.
 void set_depth(const PixelSite& site, bool is_inside, PixelHit& out) {
   const Projected& scene = site.scene;
   const Triangle& t = site.t;
@@ -127,8 +127,8 @@ void set_depth(const PixelSite& site, bool is_inside, PixelHit& out) {
                    out);
 }
 
-/// Whether the primitive covers the pixel, by its grid and tie rule, or by an outline on the grid that passes farther
-/// from the sample than float may move it; nullopt: open.
+/// Whether the primitive covers the pixel: by the declared grid and tie rule, or because the triangle's outline on the
+/// grid passes farther from the sample than float may displace the outline; nullopt: open.
 std::optional<bool> coverage_of(const Projected& scene, const Triangle& t, const PixelSite& covering) {
   const std::optional<bool> known = known_coverage(scene, t, covering.pixel.x, covering.pixel.y);
   if (known || !t.on_grid || !t.facing_kept) return known;

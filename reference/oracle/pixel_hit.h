@@ -23,8 +23,8 @@ struct PixelDepth {
 /// A triangle that certainly or possibly covers a pixel.
 struct PixelHit {
   Hit hit;  ///< input of fold_hits()
-  /// In double, the pixel is covered (`covers` where it is known, else with ties by rule left_bottom), in depth
-  /// range, and not culled.
+  /// Whether, in double, the triangle covers the pixel (by `covers` where that is known, else with ties by rule
+  /// left_bottom), is in depth range, and is not culled.
   bool inside = false;
   bool at_diagonal = false;  ///< inclusive or exclusive tie rule: the sample may lie on a diagonal of the cut triangle
   bool covered_inside = false;  ///< every legal renderer covers the pixel with the triangle's inside
@@ -35,7 +35,7 @@ struct PixelHit {
   double delta = 0;             ///< largest displacement of the triangle's outline here [pixels]
   bool colored = false;         ///< the colour and its bound are set
   double alpha_bound = 0;       ///< of hit.color.a alone
-  /// Coverage by the declared grid and tie rule: true in every legal renderer, false in none; nullopt: open.
+  /// Coverage by the declared grid and tie rule. true: in every legal renderer; false: in none; nullopt: open.
   std::optional<bool> covers;
 };
 

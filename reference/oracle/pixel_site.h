@@ -48,7 +48,7 @@ class PixelSite {
   double snap_weight(bool certain) const;
   /// True if snapping may reverse the facing of the triangle or of the covering piece.
   bool may_show_either_face(bool certain) const;
-  /// True if snapping may reverse the covering piece's facing; its plane then goes through snapped corners.
+  /// True if snapping may reverse the covering piece's facing. The piece's plane then goes through snapped corners.
   bool may_turn_over(bool certain) const { return !certain && (t.cut || t.thin); }
   /// Edge functions that weight the corners' attributes.
   std::array<glm::dvec3, 3> weight_planes(Conventions::Interpolation how) const;

@@ -54,8 +54,7 @@ struct Capture {
   /// Frame colours of each pass of an antialiased scene. The capture of such a scene holds no records, and of planes
   /// only color and depth: the passes' own captures hold the rest.
   std::vector<Plane<glm::vec4>> samples;
-  /// Columns that a capture folder leaves out because other columns determine them: "window.front"
-  /// (complete_records.h).
+  /// Columns that a capture folder leaves out and complete_records() fills in, such as "window.front".
   std::set<std::string> derived;
   std::set<std::string> without_records;  ///< groups whose arrays a folder holds with 0 records, such as "window"
   SnappedBy snapped_by = SnappedBy::renderer;

@@ -156,7 +156,8 @@ struct Handed {
   std::optional<Varying> varying;  ///< whose column the group is
 };
 
-/// Group with one record per owner, and its number of records; any other group of these owners has as many, or none.
+/// Name of the group that has one record per owner, and the number of owners. Other groups of these owners have as many
+/// records, or none.
 struct Owners {
   std::string_view group;
   std::size_t count;

@@ -193,9 +193,9 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
 
 // ---- depths
 
-// Largest distance from code / (2^n - 1) of a depth in [0,1] that was computed from the code, such as
-// 1 - code' / (2^n - 1): 8 roundings, each of 2^-53 in double. Codes of 16 bits may be computed in float: 8 roundings
-// of 2^-24 are 1/32 of a code.
+// Largest distance of a depth in [0,1] from code / (2^n - 1), where the depth was computed from the code, such as
+// 1 - code' / (2^n - 1): 8 roundings, each of 2^-53 in double. From codes of 16 bits, depths may be computed in float:
+// 8 roundings of 2^-24 are 1/32 of a code.
 double code_roundings(double codes) { return codes < 0x1p20 ? 0x1p-21 : 0x1p-50; }
 
 // Codes of depths that were read from f32. Depths that are not all floats of codes stay: they are not rounded yet.

@@ -13,9 +13,9 @@ namespace plumbline {
 /// Fills the columns named in `capture.derived`, and clears that set. vertex.n_eye: from the capture's matrices and the
 /// mesh; of draws lit per fragment the normal varying of vertices, where it is shown. clip.cut: false where p_clip is that of a vertex of the primitive, within 2^-22 of its largest coordinate
 /// (true where there are no vertices, and clip is not judged). window.snapped: from p_win and the conventions.
-/// window.front: from the sign of the area on the conventions' grid; the other face where the draw culls this one and
-/// the area is 0 on the grid, or of the other sign unsnapped. window.corners, window.width: from the mesh and the draw.
-/// texture.lod: NaN, as no recorded column determines it.
+/// window.front: by the sign of the area on the conventions' grid. Where the draw culls that face, and the area is 0 on
+/// the grid or of the other sign without snapping, it is the other face. window.corners, window.width: from the mesh
+/// and the draw. texture.lod: NaN, as no recorded column determines it.
 ///
 /// Rounds planes.depth to the nearest codes where it was read from floats, or is double's roundings (2^-50; of z8 and
 /// z16 float's, 2^-21) from a code, and to float where the format is z32f. Rounds depth.value to the nearest codes

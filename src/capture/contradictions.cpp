@@ -12,7 +12,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// Numbers of a plane: how many are outside [0,1], and their range.
+// Statistics of a plane's numbers: how many there are, how many lie outside [0,1] or are not finite, and their range.
 struct Range {
   std::size_t count = 0, outside = 0, not_finite = 0;
   double low = std::numeric_limits<double>::infinity(), high = -low;

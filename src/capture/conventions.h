@@ -74,7 +74,7 @@ struct Conventions {
 
   /// Names of the conventions that plumb learn could not find; their values are OpenGL's.
   std::vector<std::string> open;
-  /// Findings of plumb learn that no convention explains, a sentence each; mistakes, too (mistaken()).
+  /// Findings of plumb learn that no convention explains, a sentence each. mistaken() lists each of them as a mistake.
   std::vector<std::string> unexplained;
 
   static constexpr int kFloat = -1;
@@ -157,11 +157,11 @@ double in_steps(const Conventions& conventions, int axis, double p_win);
 /// Whole number of steps that in_steps() is snapped to, whatever the grid's fineness.
 double on_grid(const Conventions& conventions, int axis, double p_win);
 
-/// A convention for people.
+/// Words for people about one convention.
 struct ConventionWords {
   std::string_view name;     ///< key in conventions.json
   std::string_view meaning;  ///< what it says
-  bool is_free;              ///< OpenGL leaves the value open; numbers have limits (mistaken())
+  bool is_free;              ///< OpenGL leaves the value open; mistaken() states the limits of those that are numbers
 };
 
 /// Calls visit(words, member) for each convention that is one of several words, in the order of tables.

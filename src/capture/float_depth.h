@@ -34,19 +34,20 @@ double error_by_plane(const WindowCorners& corners, glm::dvec2 p);
 /// |A|. Small triangles far from the origin lose most.
 double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
-/// Displacement along x of an edge over so many `rows`, |x| at most `most_x` [pixels]. in_float_stepped: x is added up
-/// from row to row, two roundings a row (slope, sum), two more at the ends. Otherwise 0.
+/// Displacement along x of an edge over `rows` rows, where |x| is at most `most_x` [pixels]. in_float_stepped: x is
+/// added up from row to row, two roundings a row (slope, sum), two more at each end. Otherwise 0.
 double edge_displacement(Conventions::DepthArithmetic arithmetic, double rows, double most_x);
 
-/// Error at p, besides a plane's, of z that is stepped there from a corner [u of window z]: along an edge from row to
-/// row, then from column to column, a sum each, of numbers of at most the largest |z_i|. The edge's x is stepped, too:
-/// edge_displacement() times |dz/dx|. Rows and columns beyond a frame of that size are not stepped, but left out by a
-/// product (error_by_plane()).
+/// Error that stepping z from a corner to p adds to a plane's error [u of window z]: a sum for each row along an edge
+/// and for each column, of numbers of at most the largest |z_i|; and |dz/dx| times edge_displacement(), as the edge's x
+/// is stepped, too. `frame`: its size [pixels]. One product, whose error error_by_plane() counts, replaces the steps
+/// over rows and columns beyond the frame.
 double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame);
 
-/// Error of a depth at p [window z], and u for its code: a product and a sum, half a unit in the last place of a number
-/// below 1 each. in_double: 0. in_float: the larger of the first two. in_float_stepped: that, and error_by_steps().
-/// in_float_from_origin: the largest of the first three.
+/// Error of a depth at p [window z], plus u for its code: a product and a sum, each off by half a unit in the last
+/// place of a number below 1. in_double: 0. in_float: the larger of error_by_edge_functions() and error_by_plane().
+/// in_float_stepped: the same, plus error_by_steps(). in_float_from_origin: the largest of the two and of
+/// error_by_edge_equations().
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
                    glm::dvec2 frame);
 

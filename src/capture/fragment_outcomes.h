@@ -17,8 +17,8 @@ Outcomes outcomes(CompareFunc func, double lo, double hi, double reference);
 /// float.
 double depth_in_format(DepthFormat format, double z_win);
 
-/// Whether every depth passes against the held depth: less_equal against 1 and greater_equal against 0, because depths
-/// are always limited to [0,1] (OpenGL 2.1 spec 3.5.5; Vulkan 1.2 "Depth Bias": of floats, too).
+/// Whether every depth passes against the held depth: by less_equal against 1 and by greater_equal against 0, because
+/// depths are always limited to [0,1] (OpenGL 2.1 spec 3.5.5; Vulkan 1.2 "Depth Bias": depths of floats, too).
 bool passes_all_over(DepthFunc func, double held);
 
 /// Outcomes of the alpha test for an alpha in [lo, hi] (OpenGL 2.1 spec 4.1.4, 4.5 compatibility 17.3.4): where the

@@ -36,8 +36,8 @@ struct Held {
   std::int32_t surface;
 };
 
-/// `hit` against the depth that the frame holds; depths no more than a step apart may compare either way, so that
-/// "less" and "less or equal" allow the same, but at 0 and 1. Depths of one surface are equal.
+/// Depth test of a hit against the depth that the frame holds. Depths at most a step apart may compare either way, so
+/// that `less` and `less_equal` have the same outcomes, except at 0 and 1. Depths of one surface are equal.
 Test depth_test(const Hit& of, const Held& frame, DepthFormat format) {
   const DepthFunc func = of.depth_func;
   const Interval hit{of.z_lo, of.z_hi}, held = frame.z;
@@ -83,7 +83,7 @@ LegalAnswer answer(const Hit& hit, Interval z) {
           hit.surface};
 }
 
-/// The surface of a depth that is one of two.
+/// Surface of a depth that is of surface a or of surface b: known only where the two are one.
 std::int32_t either(std::int32_t a, std::int32_t b) { return a == b ? a : kNoSurface; }
 
 /// Sorts by draw order, and merges answers of equal primitive and stencil value: their depth interval is the hull.
@@ -153,8 +153,9 @@ std::vector<Group> groups_of(std::span<const Hit> hits) {
   return groups;
 }
 
-/// Folds hits of groups: from a group's first hit to its last, one branch per hit of the group, in which that hit is
-/// certain. Overlapping groups multiply their branches; beyond kMostBranches the hits of a group are merely possible.
+/// Folds hits of groups. From a group's first hit to its last there is a branch for each hit of the group, in which
+/// that hit is certain. Groups that overlap multiply their branches; a group that would make more than kMostBranches
+/// gets no branches, and its hits are merely possible.
 class BranchedFold {
  public:
   explicit BranchedFold(const FrameFormat& frame) : branches_{{{}, LegalFold(frame)}} {}

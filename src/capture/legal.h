@@ -93,9 +93,9 @@ class LegalFold {
 };
 
 /// All legal winners of a pixel, in draw order, the background first; one entry per winner and stencil value.
-/// `hits` in draw order (ascending primitive), groups numbered from 0 on. Depths within depth_step() (scene.h) of each
-/// other may compare either way, but for two that are clamped to the same end, for those of one surface, and, in
-/// formats with codes, for the end that less_equal (1) or greater_equal (0) cannot fail over. `out` is emptied first.
+/// `hits`: in draw order (ascending primitive), groups numbered from 0 on. Two depths within depth_step() (scene.h) of
+/// each other may compare either way, except two that are clamped to the same end, two of one surface, and any depth
+/// against 1 by less_equal or against 0 by greater_equal, which passes. Empties `out` first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
 /// Legal texels of a fragment: the level of detail may be computed for four pixels together, with a logarithm that is

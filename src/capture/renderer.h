@@ -95,8 +95,9 @@ class Renderer {
   /// records where it is empty), for visibility and merge the frame's clear values: the returned capture holds that
   /// stage's records or planes, nothing else. Coverage hands out records.covered and the planes count and id_sum;
   /// visibility planes.id and planes.stencil; merge planes.color and planes.depth; resolve planes.color, of in.samples.
-  /// `conventions`: those that no change of the scene or of `in` expresses (offset_unit, texture_bits, level_of_detail,
-  /// magnified, half_way_level) are followed by exact alone. Throws Unsupported where info()[stage].runs is false.
+  /// `conventions`: read by exact alone, and of them only those that no change of the scene or of `in` expresses
+  /// (offset_unit, float_offset_unit, texture_bits, level_of_detail, magnified, half_way_level, and rows, by which 2 x
+  /// 2 squares of pixels are counted). Throws Unsupported where info()[stage].runs is false.
   virtual Capture run_stage(const Scene& scene, Stage stage, const Capture& in, const Conventions& conventions = {});
 };
 

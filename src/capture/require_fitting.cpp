@@ -76,8 +76,8 @@ struct LackingVarying {
   void plane(Handed, const auto&) const {}
 };
 
-// Whether records are in draw order, of primitives that the scene has, and each with as many corners as its primitive
-// may have: a line 2, a point 1, what is left of a triangle 3 to `most`; of one that is not filled `least` are enough.
+// Whether records are in draw order, of primitives that the scene has, and each has as many corners as its primitive
+// allows: a line 2, a point 1, what is left of a filled triangle 3 to `most`, of an unfilled one `least` to `most`.
 bool fit(const Scene& scene, const auto& records, auto corners_of, std::uint32_t least, std::uint32_t most) {
   const DrawIndex draws(scene);
   const auto fits = [&](const auto& record) {

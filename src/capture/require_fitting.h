@@ -12,8 +12,8 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in);
 
 /// Varyings of a stage: those that it reads; those that it reads or hands on.
 enum class VaryingsOf { inputs, inputs_and_output };
-/// Name of the first group of these varyings, such as "varyings.normal.fragments", that holds no record though the
-/// vertices, corners or fragments beside which it lies have records. Empty: none.
+/// Name of the first group of these varyings, such as "varyings.normal.fragments", that has no record although the
+/// vertices, corners or fragments that it lies beside have records. Empty: there is no such group.
 std::string lacking_varying(const Scene& scene, Stage stage, VaryingsOf of, const Capture& in);
 
 }  // namespace plumbline

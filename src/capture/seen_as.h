@@ -5,8 +5,8 @@
 
 namespace plumbline {
 
-/// The records with the varying as the colour of vertices, clipped polygons, window triangles and fragments; polygons
-/// and triangles are left out where the varying's columns have another size, as are lights, depth, texels, shaded and
+/// Records with the varying as the colour of vertices, clipped polygons, window triangles and fragments. Leaves out
+/// polygons or triangles where the varying's columns have another size, and always lights, depth, texels, shaded and
 /// drawn.
 Records<double> seen_as(const Records<double>& records, Varying varying);
 

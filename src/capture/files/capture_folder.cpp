@@ -116,14 +116,14 @@ class Reader {
     if (is_narrow<T>(*array)) capture_.depth_in_float = true;  // the one plane of doubles
   }
 
-  /// Of the manifest, itself included, before anything else is read.
+  /// Names of the files that the manifest names, and its own. Call before anything else is read.
   std::set<fs::path> files() const {
     std::set<fs::path> names{"manifest.json"};
     for (const auto& [name, array] : arrays_) names.insert(array["file"].text());
     return names;
   }
 
-  /// After all groups and planes: refuses an array that none of them is.
+  /// Refuses an array that is no group's and no plane's. Call after all groups and planes are read.
   void finish() const {
     for (const auto& [name, array] : arrays_) {
       array["name"].refuse("the name of an array of this format's version", fmt::format("\"{}\"", name));

@@ -47,7 +47,7 @@ Bytes encode_depth_codes(const std::filesystem::path& file, const Plane<double>&
 Bytes encode_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                    ColorFormat format = ColorFormat::rgba8);
 
-/// Check a file name before there is a plane: throw what encode_image and encode_depth_exr would throw for it.
+/// Checks of a file name before there is a plane: throw what encode_image() and encode_depth_exr() would throw for it.
 void require_image_name(const std::filesystem::path& file, ColorFormat format = ColorFormat::rgba8);
 void require_depth_name(const std::filesystem::path& file);
 

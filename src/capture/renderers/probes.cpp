@@ -87,7 +87,7 @@ std::vector<DepthFunc> functions_of_probes(const Scene& scene, const Conventions
   return out;
 }
 
-// Pictures of primitives alone, by the first of functions_of_probes() that the renderer draws.
+// Pictures of primitives alone, drawn by the first of functions_of_probes() that the renderer supports.
 class PicturesAlone {
  public:
   PicturesAlone(const Scene& scene, Renderer& renderer)

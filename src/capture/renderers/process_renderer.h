@@ -32,7 +32,7 @@ struct ProcessSpec {
   bool confined = false;
   std::string shown = "";  ///< the command line as messages show it; empty: argv
   std::function<void(const Scene&, const std::filesystem::path& folder)> write_input{};
-  std::function<void(const Scene&, Capture&)> give{};  ///< adds given records, where coverage's records are asked for
+  std::function<void(const Scene&, Capture&)> give{};  ///< adds the given records, where those of coverage are wanted
   Conventions conventions = {};                    ///< the program's; captures are mapped to OpenGL's (to_dialect())
   bool raw_depth = false;                          ///< depths in floats are not taken for codes of the scene's format
   std::map<std::string, std::string> environment;  ///< added to the inherited one, or in the place of its variables
@@ -40,8 +40,8 @@ struct ProcessSpec {
   StageSet shows;                                  ///< stages that info() says are shown
 };
 
-/// info() runs nothing. capture() runs the program, waits, and reads the folder; of its records those that the request
-/// names are handed on, of these all primitives and pixels. Throws RendererFailed, with the last lines of the program's
+/// info() runs nothing. capture() runs the program, waits, reads the folder, and hands on the records of the stages
+/// that the request names, of all primitives and pixels. Throws RendererFailed, with the last lines of the program's
 /// stderr, where it cannot be started, exits with other than 0 and 77, is killed by a signal, takes longer than the
 /// timeout, or leaves no capture, a broken one, or one of another size; OverBudget where what it left is beyond the
 /// budget; and Unsupported where it exits with 77, or says so, for an antialiased scene, and, with {scene} in argv, for

@@ -13,8 +13,8 @@ namespace plumbline {
 /// vertices, or a primitive that the scene does not have; where complete_records() throws; and for an antialiased
 /// scene, whose passes no capture holds.
 ///
-/// A planes.id that contradicts planes.count or planes.color (contradictions.h) is dropped, and visibility is marked
-/// `contradicted`: a mistake of the export, not of the depth test.
+/// Drops a planes.id that contradicts planes.count or planes.color (contradictions.h), and marks visibility as
+/// `contradicted`: the export is at fault, not the depth test.
 std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& scene, const std::string& from,
                                                  const Conventions& conventions = undeclared());
 

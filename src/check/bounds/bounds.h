@@ -56,8 +56,8 @@ DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive);
 /// (PlaneBounds), which differ where 1/w differs much between the ends. Flushing of gradients and results to zero is
 /// included. Infinite where area_may_vanish().
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
-/// Bounds for a primitive at a pixel, at least 1: largest over its window triangles within a pixel of the pixel's
-/// centre; if none is, over all. Line shifts: those of the edge nearest to the centre.
+/// Bounds of a primitive at a pixel, at least 1 [u]: the largest over those of its window triangles that come within a
+/// pixel of the pixel's centre; where none does, over all. Line shifts: those of the edge nearest to the centre.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
                              const DepthLimits& limits = {});
 
@@ -67,7 +67,7 @@ bool area_may_vanish(const WindowTriangle<double>& triangle);
 /// True if a pixel's centre is in or beside the triangle: no barycentric below -1/64.
 bool is_near(const WindowTriangle<double>& triangle, int x, int y);
 
-/// Window triangles of the primitive, a view; `records.triangles` are sorted by primitive. Empty: it has none.
+/// View of the primitive's window triangles, possibly empty. `records.triangles` must be sorted by primitive.
 std::span<const WindowTriangle<double>> triangles_of(const Records<double>& records, std::int32_t primitive);
 
 /// Error that a polygon offset adds to a depth [u of window z], for a renderer that computes the slope in float and

@@ -23,7 +23,8 @@ constexpr std::string_view kBehindEye =
 const Records<double> kNone;
 const std::vector<Vec4<double>> kNowhere;
 
-// Difference of a member (&Lit<double>::color) per vertex; `granted` where the reference shows none.
+// Difference of a member (&Lit<double>::color) of both sides per vertex; `granted` where the reference has no such
+// records.
 template <class Record>
 std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b, auto member,
                                         double granted) {
@@ -112,7 +113,7 @@ std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<
 
 namespace {
 
-// Numbers of the `wanted` fragments of recorded triangles.
+// Indices of the `wanted` fragments, of those whose triangle is recorded.
 template <class Wanted>
 std::vector<std::size_t> fragments_of(const Records<double>& r, const Wanted& wanted) {
   std::vector<std::size_t> out;

@@ -79,8 +79,8 @@ class FragmentBounds {
   /// The fragment's triangle with a varying in place of its colours; none: the varying is not recorded.
   std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
   Vec4<double> varying_error(std::size_t i, Varying v) const;
-  /// Error of the corners that cuts make: opengl.clip of the ledger times the largest value at the primitive's
-  /// vertices; 0 where nothing is cut. On an edge with ends 10^6 apart, it may exceed all later stages' errors.
+  /// Error of corners made by cuts: the ledger's opengl.clip times the largest value at the primitive's vertices; 0
+  /// where nothing is cut. On an edge whose ends are 10^6 apart, it may exceed all later stages' errors.
   Vec4<double> cut_error(std::uint32_t primitive, const std::vector<Vec4<double>>& column) const;
   /// Largest difference of the two sides' colours at the primitive's corners: `times` the difference at its vertices,
   /// and cut_error() of the colours unless the draw is flat.

@@ -55,8 +55,9 @@ double depth_rounding(const WindowTriangle<double>& t) {
 
 namespace {
 
-// Changes of the three q_i and of their sum within a block of 4 x 4 pixels, if a pipeline may evaluate them in float
-// there: each but q_0's is at most half of the least 1/w (kernels/attributes.h, changes_little). Else 0.
+// Changes of the three q_i and of their sum within a block of 4 x 4 pixels in which a pipeline may evaluate them in
+// float: there the changes of q_1, q_2 and the sum are at most half of the least 1/w (kernels/attributes.h,
+// changes_little). Elsewhere 0.
 struct BlockChanges {
   Vec3<double> q{0};
   double sum = 0;

@@ -53,7 +53,8 @@ bool may_be_empty(const Legal& legal) {
 
 namespace {
 
-// The float product by 255 of a reference half way between two codes may go to either (llvmpipe makes 76 of 0.3).
+// Outcomes of a reference's alpha test. Its float product of 255 and a test value half way between two codes may go to
+// either code (llvmpipe makes 76 of 0.3).
 Outcomes theirs_of(AlphaTest test, ColorFormat format, double lo, double hi) {
   Outcomes out = alpha_outcomes(test, format, lo, hi);
   if (color_scale(format) == 0) return out;
@@ -227,7 +228,7 @@ std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
 
 namespace {
 
-// Takes the fragments of the wanted triangles out of the planes of coverage.
+// Planes of coverage from which fragments are taken out one by one.
 class Removal {
  public:
   Removal(const Capture& from, Plane<std::uint8_t>& open) : open_(open) {

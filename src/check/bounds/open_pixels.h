@@ -71,7 +71,8 @@ struct WithoutTurned {
 WithoutTurned without_turned(const Scene& scene, const Capture& candidate, const Capture& reference,
                              std::span<const std::uint32_t> turned, Renderer& referee);
 
-/// Copies the candidate's planes but count and id_sum into the reference's where `open` is 1; returns how many pixels.
+/// Copies the candidate's planes, except count and id_sum, into the reference's where `open` is 1. Returns the number
+/// of open pixels.
 std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference);
 
 /// Copies `drawn` of the candidate's fragments into the reference's where `open` is 1. Nothing is copied unless both

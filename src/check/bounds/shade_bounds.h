@@ -19,7 +19,7 @@ struct ShadeInputs {
   Vec4<double>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
   const Vec4<double>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
 };
-/// Inputs of fragment number `i`; 0 where the records lack a column. `lights` points into the records.
+/// Inputs of fragment number `i`; 0 for a column that the records lack. `lights` points into the records.
 ShadeInputs shade_inputs_of(const Records<double>& records, std::size_t i);
 
 /// Error of the shaded colour, per channel: of inputs off by `errors`, and of each step's `roundings` in float.

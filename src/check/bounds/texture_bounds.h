@@ -38,7 +38,7 @@ struct OpenShare {
 };
 OpenShare open_share(const Texture& texture, const TexelRange& range, const PlaneValue& plane, Vec2<double> st_error);
 
-/// Why another texel than the legal ones is Mesa's fault, or empty. Linear magnification gives way to the nearest
+/// Reason why a texel that is not legal is Mesa's fault, or empty. Linear magnification gives way to the nearest
 /// texels of mipmaps at a lambda of 1/2 (OpenGL 2.1 spec 3.8.9, c), in Mesa at 0. A lambda of d + 1/2 takes level d
 /// (equation 3.25), in Mesa the even one of d and d + 1 (measured: 1.5 and 3.5 go up, 2.5 down); looked for where
 /// min_lod or max_lod is such a lambda.

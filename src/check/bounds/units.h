@@ -1,4 +1,5 @@
-// Helpers of comparators and bounds: roundings, units, lookups of legal answers; included by .cpp files alone.
+// Helpers of comparators and bounds: roundings, units, look-ups of legal answers. Of headers, compare/same_winners.h
+// alone includes these.
 #pragma once
 
 #include <algorithm>

@@ -16,8 +16,8 @@ namespace plumbline::check {
 /// Whether planes.count sums to more than `most_fragments`.
 bool more_than(std::uint64_t most_fragments, const Capture& capture);
 
-/// The candidate's records and planes; without records of fragments where these do not fit the memory budget or, of our
-/// renderer, are too many. Throws what Renderer::capture() throws.
+/// The candidate's records and planes. Leaves out records of fragments that do not fit the memory budget or, of a
+/// candidate that is not foreign, exceed `most_fragments`. Throws what Renderer::capture() throws.
 Capture capture_all(const Scene& scene, Renderer& candidate, std::uint64_t most_fragments);
 
 /// Captures and refusals of the references, in their order.
@@ -32,7 +32,8 @@ struct ReferenceCaptures {
 ReferenceCaptures capture_references(const Scene& scene, std::span<const Reference> references, bool legal,
                                      const Conventions& conventions);
 
-/// Legal answers at the pixels where a reference has another winner than the candidate; empty where the oracle fails.
+/// Legal answers at the pixels where a reference has another winner than the candidate. Empty where no pixel has, or
+/// the oracle fails.
 Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
                         const Conventions& conventions);
 

@@ -68,7 +68,7 @@ void compare_with_legal(const SceneJudgement& c, const Legal& legal, Stage stage
       return c.add(name, stage, compare_legal_count(planes, legal), nullptr, cracks_note(planes.count, legal));
     case Stage::depth: {
       const DeclaredCodes declared = declared_codes(c);
-      // Half a step about the middle of what a declared rounding maps to the code, as exact's row has it.
+      // A declared rounding allows half a step about the middle of the depths that it maps to the code (exact.depth).
       const Tolerance& row = tolerance(declared.rounding ? Profile::exact : Profile::oracle, stage);
       return c.add(name, stage, compare_legal_depth(c.scene, planes, legal, row.factor, declared), &row);
     }

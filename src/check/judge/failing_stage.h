@@ -13,8 +13,8 @@ struct FailingStage {
   Stage stage;
   std::string how;  ///< the exception's message
 };
-/// The first stage that throws when the candidate runs it alone, on what `referee` makes of the stages before, rounded
-/// to the formats. None: the candidate runs no stages, the referee fails before, or no stage fails alone.
+/// First stage that throws when the candidate runs it alone, on the stages before as `referee` makes them, rounded to
+/// the formats. None: the candidate runs no stages, the referee fails before, or no stage fails alone.
 std::optional<FailingStage> failing_stage(const Scene& scene, Renderer& candidate, Renderer& referee);
 
 }  // namespace plumbline::check

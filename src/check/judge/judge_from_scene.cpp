@@ -12,7 +12,8 @@ namespace plumbline::check {
 
 namespace {
 
-// An oracle hands out the final colour, which is the interpolated one where all draws are plain.
+// Stages that an oracle's legal answers judge. An oracle hands out the final colour: where all draws are plain, that of
+// attributes.
 StageSet oracle_stages(const Scene& scene) {
   return {Stage::coverage, Stage::depth, is_plain(scene) ? Stage::attributes : Stage::shade, Stage::visibility,
           Stage::merge};
@@ -29,7 +30,7 @@ void judge_by_oracle(const SceneJudgement& c, const Legal& legal, Stage stage, c
   compare_with_legal(c, legal, stage, name);
 }
 
-// The referee's matrices and vertices of the scene. It judges the later stages from the candidate's own records.
+// Compares with the referee's matrices and vertices of the scene. The candidate's own records serve for later stages.
 void judge_by_referee(const SceneJudgement& c, const Records<double>& theirs, Stage stage, const JudgeId& name) {
   const Records<double>& mine = c.candidate.records;
   const Inversion inversion = c.foreign ? Inversion::in_float : Inversion::in_double;

@@ -27,10 +27,10 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
 /// Resolved colours against exact's unrounded mean of the candidate's own samples, within `factor` bounds of rounding
 /// (ledger, exact.resolve); in frames of codes each channel must be a code.
 Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& exact, double factor);
-/// The samples of a frame, bit for bit, against the candidate's colours of the passes, each drawn as a scene of its
-/// own.
+/// Samples of the candidate's frame, bit for bit, against `colors`: the candidate's colours of the passes, each pass
+/// drawn as a scene of its own.
 Measurement compare_samples(const Scene& scene, const Capture& candidate, std::span<const Plane<glm::vec4>> colors);
-/// Pixels of each pass at which a reference's samples are disputed, (x, y) of the pass; and the reference's fault.
+/// Disputed samples of a reference: per pass, the pixels (x, y) of the pass; and the reference's fault.
 struct Disputed {
   std::vector<std::set<std::pair<int, int>>> at;
   std::string reason;

@@ -17,7 +17,8 @@ namespace plumbline::check {
 
 namespace {
 
-// Reason why the frame alone judges the stage's colours, by conventions that its records do not show; empty: none.
+// Reason why the frame alone judges the stage's colours: conventions whose effect the candidate's records do not show.
+// Empty: there is none.
 std::string_view why_by_frame(const Scene& scene, Stage stage, const Conventions& conventions) {
   if (stage == Stage::shade && fogs_by_vertices(scene, conventions))
     return "its fog factors are of vertices: the frame's colours are judged";

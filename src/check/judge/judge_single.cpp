@@ -22,8 +22,8 @@ namespace plumbline::check {
 
 namespace {
 
-// Row `failed` of a candidate whose capture failed, at the failing stage (unknown: at merge). `shown` keeps the stages
-// that are before the failing stage and before coverage; none if the failing stage is unknown.
+// Row `failed` of a candidate whose capture failed, at the stage that fails alone; merge where no stage does. `shown`:
+// keeps the stages before the failing stage and before coverage; none where the failing stage is unknown.
 Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* referee, const std::string& how,
                             RendererInfo& shown) {
   const auto at = referee == nullptr ? std::nullopt : failing_stage(scene, candidate, *referee);
@@ -50,8 +50,8 @@ MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& r
   return made;
 }
 
-// While alive, replaces the candidate's `drawn` by the referee's tests of the candidate's earlier records, so that a
-// wrongly drawn fragment leaves nothing open.
+// Replaces the candidate's `drawn`, while alive, by the referee's tests of the candidate's earlier records: a fragment
+// that the candidate drew wrongly then leaves nothing open.
 class DrawnAsMade {
  public:
   DrawnAsMade(Capture& candidate, MadeStages& made) : candidate_(candidate), visibility_(made.find(Stage::visibility)) {

@@ -22,10 +22,10 @@ struct BothCaptures {
 /// records, stage by stage (Kind::per_stage); a reference of legal answers is an oracle for coverage, depth, visibility
 /// and colour; everything else that a reference shows is compared side by side.
 ///
-/// Records of the candidate's fragments are not captured where its planes count more than `most_fragments` fragments,
-/// or where these records do not fit the memory budget. Legal answers of the whole frame are not asked for in the first
-/// case, nor kept beyond the budget: the referee then gives them at the pixels where a reference has another winner.
-/// Throws OverBudget, before a reference draws, where the candidate's capture does not fit even without fragments.
+/// Leaves out records of the candidate's fragments that do not fit the memory budget or, of a candidate that is not
+/// foreign, exceed `most_fragments`. Where planes.count sums to more than `most_fragments`, or the legal answers of the
+/// whole frame do not fit the budget, the referee gives legal answers at the pixels alone where a reference has another
+/// winner. Throws OverBudget, before a reference draws, where the candidate's capture without fragments does not fit.
 SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                           BothCaptures* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
 

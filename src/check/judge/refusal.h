@@ -10,7 +10,7 @@
 
 namespace plumbline::check {
 
-/// `missing` (not built in), `unsupported` (it threw Unsupported or OverBudget) or `failed`.
+/// Outcome and reason: `missing` (not built in), `unsupported` (Unsupported or OverBudget was thrown) or `failed`.
 struct Refusal {
   Outcome outcome;
   std::string why;

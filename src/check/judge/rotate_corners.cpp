@@ -24,7 +24,7 @@ constexpr double kNear = 1e-3, kRoundings = 1e-6;  // relative differences
 
 double apart(double a, double b) { return std::abs(a - b) / std::max(1.0, std::abs(b)); }
 
-// Fit of two triangles: the count of matching numbers, and the sum of their relative differences.
+// Fit of two triangles: the number of their numbers that match, and the sum of these numbers' relative differences.
 struct Fit {
   int alike = 0;
   double apart = 0;
@@ -45,7 +45,8 @@ void add_corner(Fit& fit, const WindowVertex<double>& a, const WindowVertex<doub
   fit.add(color);
 }
 
-// Rotations with the most numbers that match one of `theirs`; among equals, the nearest, but for roundings.
+// Rotations under which most numbers match those of one of `theirs`; of equally good ones the nearest, but for
+// roundings.
 Rotations best_rotations(const WindowTriangle<double>& mine, Run theirs) {
   std::array<Fit, kRotations> fits;
   for (const WindowTriangle<double>& other : theirs) {

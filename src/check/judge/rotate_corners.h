@@ -14,8 +14,8 @@ namespace plumbline::check {
 void rotate_corners(Records<double>& candidate, const Records<double>& reference);
 
 /// rotate_corners() into the order of the triangles that the referee makes of the candidate's polygons. `shown`: the
-/// candidate's info. Nothing is rotated where the records that stage window needs are not shown, or do not suit the
-/// referee.
+/// candidate's info. Rotates nothing where the candidate does not show the records that stage window reads, or the
+/// referee refuses them.
 void rotate_as_made(const Scene& scene, const RendererInfo& shown, Renderer& referee, Capture& candidate);
 
 }  // namespace plumbline::check

@@ -37,9 +37,9 @@ bool knows_ties(const Scene& scene, const Conventions& conventions);
 Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, const Capture& in,
                            const Conventions& conventions);
 
-/// Merge, by run_by_conventions(), of a renderer that blends in float: legal.color_lo and color_hi hold what its codes,
-/// rounded as declared and read again, may come to. Of frames of floats, and where no code is read again: as
-/// referee.run_stage() has it.
+/// Stage merge, by run_by_conventions(), of a renderer that blends in float: legal.color_lo and color_hi hold the range
+/// of its codes, which are rounded as declared and read again. For frames of floats, and where no code is read again:
+/// what referee.run_stage() returns.
 Capture merge_as_declared(Renderer& referee, const Scene& scene, const Capture& in, const Conventions& conventions);
 
 }  // namespace plumbline::check

@@ -32,10 +32,10 @@ double from_origin(const SceneJudgement& c, Stage stage) {
   return c.foreign ? tolerance(Profile::opengl, stage).factor : 0;
 }
 
-// Size of a frame [pixels].
+// Width and height of a frame [pixels].
 glm::dvec2 size_of(const FrameFormat& frame) { return {frame.width, frame.height}; }
 
-// Roundings of a stranger's colours at corners, which may be products by 1/w undone, or fixed point of 16 bits.
+// Roundings of a stranger's colours at corners: a stranger may undo a product by 1/w, or hold fixed point of 16 bits.
 double corner_roundings(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
 
 FacingArea facing_area(const SceneJudgement& c) { return c.foreign ? FacingArea::either : FacingArea::snapped; }
@@ -98,7 +98,7 @@ Measurement with_varyings(const SceneJudgement& c, Stage stage, Measurement colo
   return color;
 }
 
-// Closes the open pixels whose winner the oracle does not call legal; all, where the oracle gave no answers.
+// Closes open pixels whose winner is not legal by the oracle; all open pixels, where the oracle gave no answers.
 void close_illegal(const SceneJudgement& c, Plane<std::uint8_t>& open) {
   const Planes& mine = c.candidate.planes;
   const bool known = mine.id.size() == open.size() && c.legal.certain.size() == open.size() && !c.legal.empty();

@@ -48,7 +48,8 @@ struct SceneJudgement {
     static const Legal none;
     return foreign ? legal : none;
   }
-  /// Whether a foreign candidate shows no stencil values of a frame that has some: its winners alone are compared.
+  /// not_shown: a foreign candidate leaves out the stencil values of a frame that has some, and its winners alone are
+  /// compared. Else compared.
   Stencils stencils() const {
     const bool has_some = scene.frame.stencil != StencilFormat::none;
     return foreign && has_some && candidate.planes.stencil.empty() ? Stencils::not_shown : Stencils::compared;

@@ -18,9 +18,9 @@ namespace plumbline::check {
 
 namespace {
 
-// Whether a reference's coverage contradicts the window triangles that it hands out itself, and the candidate's follows
-// from them: exact arithmetic on the reference's own records is the third witness. (llvmpipe culls by the unsnapped
-// area as well, once anything in a batch is clipped.)
+// Whether a reference's coverage contradicts the reference's own window triangles, and the candidate's coverage follows
+// from these triangles: exact arithmetic on the reference's records is the third witness. (llvmpipe culls by the
+// unsnapped area as well, once anything in a batch is clipped.)
 bool contradicts_itself(const SceneJudgement& c, const Capture& mine, const Capture& theirs) {
   if (c.referee == nullptr || theirs.records.triangles.empty()) return false;
   Capture window;
@@ -182,8 +182,8 @@ void side_by_side(const SceneJudgement& c, const Capture& theirs, Stage stage, c
   const std::size_t before = c.rows.size();
   if (!compare_without_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
   if (c.rows.size() == before) return;
-  // Depths left in the frame may all be codes (such as the clear depth's) although earlier tests compared depths of
-  // another format: a difference is then no evidence.
+  // All depths left in the frame may be codes (such as the clear depth's) although earlier tests compared depths of
+  // another format: then a difference is no evidence.
   Comparison& row = c.rows.back();
   const bool by_depth = stage == Stage::visibility || stage == Stage::merge;
   const bool differs = row.outcome == Outcome::different || row.outcome == Outcome::dispute;

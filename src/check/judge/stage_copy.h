@@ -14,8 +14,8 @@ void copy_stage(Stage stage, const Capture& from, Capture& to);
 /// Empties the stages after `stage`, up to merge.
 void clear_stages_after(Stage stage, Capture& capture);
 
-/// Rounds what the capture holds of the stage: depths and colours to the frame's codes where it has codes, all else to
-/// float. Snapped positions and facing stay as they are.
+/// Rounds what the capture holds of the stage: fragments' depths and planes.color to the frame's codes where it has
+/// codes, records of all other stages to float. Snapped positions and facing stay as they are.
 void round_to_formats(const Scene& scene, Stage stage, Capture& capture);
 
 }  // namespace plumbline::check

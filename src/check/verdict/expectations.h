@@ -1,4 +1,4 @@
-// Known differences: rows of a file, each with its reason, its issue and the day on which it stops being an excuse.
+// Known differences: rows of a file, each with its reason, its issue and the last day on which it is an excuse.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ namespace plumbline::check {
 struct Expectation {
   std::string scene;         ///< its name: group/scene
   std::string reference;     ///< of the row
-  std::optional<Kind> kind;  ///< of the row; none: any but from_scene and those of single stages
+  std::optional<Kind> kind;  ///< of the row; none: any but from_scene, per_stage, at_worst and repaired
   Stage stage = Stage::matrices;
   Outcome outcome = Outcome::different;  ///< or missing, failed
   std::string reason, issue;
@@ -37,7 +37,7 @@ enum class Settlement {
   occurred,  ///< its row is now `expected`, and says why
   expired,   ///< it occurred after its last day: the row stays a failure
   passed,    ///< the row has another outcome than expected: a failure, too
-  unmatched  ///< scene and reference were asked, and there is no such row: a failure
+  unmatched  ///< there is no such row, although scene and reference were asked: a failure
 };
 struct Settled {
   const Expectation* expectation;

@@ -10,8 +10,8 @@
 
 namespace plumbline::check {
 
-/// A tolerance is `factor` times a magnitude that its formula names. The largest difference seen over the suite must
-/// reach a quarter of it, or `loose_because` says why no scene can.
+/// Tolerance: `factor` times a magnitude that its formula names. The largest difference seen over the suite must reach
+/// a quarter of the tolerance, or `loose_because` says why no scene can make it so large.
 struct Tolerance {
   Profile profile;        ///< of the reference
   Stage stage;            ///< that is compared

@@ -18,7 +18,7 @@ namespace plumbline::check {
 
 inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Where in a capture: a pixel, or a record and its field.
+/// Place in a capture: a pixel, or a record and its field.
 struct Place {
   int x = -1, y = -1;         ///< pixel, or -1
   std::int64_t record = -1;   ///< number of the record, or -1
@@ -73,8 +73,8 @@ class Meter {
   /// the sum is not finite, or the tolerance negative, both are 0.
   void value(double diff, double tolerance, const Place& place, double candidate, double reference,
              double allowance = 0);
-  /// Later values of the current item beyond their tolerance are disputed, the reference's fault, for the reason `why`;
-  /// infinite differences, such as NaN, stay the candidate's. Empty: ends that.
+  /// Disputes the current item's later values that are beyond their tolerance: the reference's fault, for the reason
+  /// `why`. Infinite differences, such as NaN, stay the candidate's. Empty: ends that.
   void suspect(std::string_view why) { why_ = why; }
   void ambiguous() { item_ambiguous_ = true; }
   /// Ends an item: counts it, adds its largest difference to the histogram, and ends suspect().
@@ -101,7 +101,7 @@ inline Measurement worse(Measurement a, Measurement b) {
 /// Measurement of sides that cannot be compared item by item: all items (at least 1) differ infinitely.
 Measurement mismatch(std::string unit, std::string why, std::uint64_t items);
 
-/// Whether two planes have one size and are not both empty; if not, `why` says so.
+/// Whether two planes have one size and are not both empty. `why`: set to the reason where the result is false.
 template <class A, class B>
 bool same_size(const Plane<A>& a, const Plane<B>& b, std::string& why) {
   if (a.empty() && b.empty()) {

@@ -92,8 +92,8 @@ bool was_compared(const Comparison& row) {
 
 namespace {
 
-// Attributes over w, and 1/w, that are stepped in float along the edges and the rows of 1,024 pixels: a rounding for
-// each step of each [u]. The largest seen of right frames is 1,401, of skywind3000/mini3d.
+// Bound of the error of attributes over w, and of 1/w, that are stepped in float along the edges and the rows of 1,024
+// pixels [u]: a rounding for each step of each. The largest seen of right frames is 1,401, of skywind3000/mini3d.
 constexpr double kStepped = 4 * 1024;
 
 // Whether the rows of attributes, texture or shade that differ, if any, do so by no more than kStepped.

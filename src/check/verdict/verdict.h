@@ -107,7 +107,7 @@ struct SceneVerdict {
   std::string path;
   std::vector<Comparison> comparisons;
   double seconds = 0;
-  bool empty_holds = false;     ///< the cleared frame is legal, and so is another: who draws nothing cannot fail
+  bool empty_holds = false;     ///< the cleared frame is legal, and so is another: drawing nothing is no mistake
   bool knows_no_color = false;  ///< no surface's colour is known to half of its range (open_pixels.h)
   std::string failure{};        ///< lines: why it does not hold; empty: it does
   std::string repeat{};         ///< the command that repeats the failure
@@ -118,7 +118,7 @@ struct SceneVerdict {
 /// Group of a scene of a suite: its name up to the first '/'.
 std::string group_of(std::string_view scene);
 
-/// Whether a row of Kind::per_stage finds nothing wrong with the stage.
+/// Whether a row of Kind::per_stage holds for the stage.
 bool holds_alone(const SceneVerdict& verdict, Stage stage);
 
 /// The `different` row of the lowest stage; of several at one stage, that of Kind::per_stage, which is wrong by itself,
@@ -139,8 +139,8 @@ bool is_legal(const SceneVerdict& verdict, Stage stage);
 std::vector<Stage> judged_stages(const SceneVerdict& verdict);
 /// Whether depth and merge alone were compared, as a frame shows them: an earlier stage may be what is wrong.
 bool is_by_frame_alone(const SceneVerdict& verdict);
-/// Whether the frame could hold anything: every item compared has several legal answers, or so has every colour of the
-/// frame or of its surfaces, or the cleared frame holds, too.
+/// Whether the rows would accept almost any frame: every item compared has several legal answers; or so has every
+/// colour of the frame, or of its surfaces; or the cleared frame holds, too.
 bool is_open(const SceneVerdict& verdict);
 /// Whether a reference judged a stage of the scene, and the scene is not open.
 bool is_judged(const SceneVerdict& verdict);

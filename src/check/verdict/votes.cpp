@@ -13,8 +13,8 @@ namespace {
 
 bool fails(const Comparison& row) { return row.outcome == Outcome::different || row.outcome == Outcome::failed; }
 
-// The independent voter behind a row. From `shared` on Embree shares exact's arithmetic of texels, light, fog, formats
-// and blending (reference/arithmetic): one vote.
+// Independent voter behind a row. From stage `shared` on Embree and exact share the arithmetic of texels, light, fog,
+// formats and blending (reference/arithmetic): one vote.
 std::string voice(const Comparison& row, Stage shared) {
   const std::string& name = row.judge.reference;
   return row.stage >= shared && name == "embree" ? "exact" : name;
@@ -35,8 +35,8 @@ std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Compa
   return exact.empty() || against.size() < 2 ? std::set<std::string>() : against;
 }
 
-// Whether the row, of merge, differs only at pixels where its reference has other winners, and is outvoted on these;
-// and exact, on the candidate's own records, and every other row of the stage hold.
+// Whether the row is of merge, differs only at pixels where its reference has other winners and is outvoted on these
+// winners, and exact, on the candidate's own records, and every other row of the stage hold.
 bool follows_from_winners(const Comparison& row, const std::vector<Comparison>& rows) {
   const std::vector<glm::ivec2>& at = row.measurement.differing_at;
   if (row.stage != Stage::merge || at.empty() || at.size() < row.measurement.differing) return false;
