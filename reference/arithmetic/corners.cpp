@@ -101,13 +101,14 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
 }
 
 GridPoints grid_points(const Projected& scene, const Corner& corner) {
-  const Conventions::Rounding rounding = scene.conventions.subpixel_rounding;
-  const double steps = steps_of(scene), before = rounding == Conventions::Rounding::nearest ? 0 : kOfFixedPoint;
+  const Conventions::Rounding of_x = subpixel_rounding(scene.conventions, 0),
+                              of_y = subpixel_rounding(scene.conventions, 1);
+  const double steps = steps_of(scene), before = of_x == Conventions::Rounding::nearest ? 0 : kOfFixedPoint;
   const glm::dvec2 off = steps * (corner_displacement(scene, corner) + before);
   const glm::dvec2 at = steps * (glm::dvec2(corner.v) / corner.v.z + scene.middle());
   GridPoints out;
   if (!(off.x < 0.5 && off.y < 0.5)) return out;
-  const auto snapped = [&](glm::dvec2 p) { return glm::dvec2(rounded(rounding, p.x), rounded(rounding, p.y)); };
+  const auto snapped = [&](glm::dvec2 p) { return glm::dvec2(rounded(of_x, p.x), rounded(of_y, p.y)); };
   const glm::dvec2 low = snapped(at - off), high = snapped(at + off);
   for (double y = low.y; y <= high.y; ++y) {
     for (double x = low.x; x <= high.x; ++x) out.at[out.count++] = {x, y};

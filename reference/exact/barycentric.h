@@ -19,8 +19,8 @@ namespace plumbline::exact {
 /// is at most 2^-52 of the largest weight.
 class Barycentric {
  public:
-  /// Weights of a triangle, a line or a point. Of a triangle without a snapped area: by the unsnapped corners; not finite
-  /// where these lie on one line.
+  /// Weights of a triangle, a line or a point. Of a triangle without a snapped area: by the unsnapped corners; not
+  /// finite where these lie on one line.
   /// `width`, `height`: of the frame [pixels].
   Barycentric(const WindowTriangle<double>& triangle, int width, int height);
 

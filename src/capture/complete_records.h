@@ -11,15 +11,16 @@ namespace plumbline {
 /// order is judged by the frame.
 ///
 /// Fills the columns named in `capture.derived`, and clears that set. vertex.n_eye: from the capture's matrices and the
-/// mesh; of draws lit per fragment the normal varying of vertices, where it is shown. clip.cut: false where p_clip is that of a vertex of the primitive, within 2^-22 of its largest coordinate
-/// (true where there are no vertices, and clip is not judged). window.snapped: from p_win and the conventions.
-/// window.front: by the sign of the area on the conventions' grid. Where the draw culls that face, and the area is 0 on
+/// mesh; of draws lit per fragment the normal varying of vertices, where it is shown. clip.cut: false where p_clip is
+/// that of a vertex of the primitive, within 2^-22 of its largest coordinate (true where there are no vertices, and
+/// clip is not judged). window.snapped: from p_win and the conventions. window.front: by the sign of the area on the conventions' grid. Where the draw culls that face, and the area is 0 on
 /// the grid or of the other sign without snapping, it is the other face. window.corners, window.width: from the mesh
 /// and the draw. texture.lod: NaN, as no recorded column determines it.
 ///
 /// Rounds planes.depth to the nearest codes where it was read from floats, or is double's roundings (2^-50; of z8 and
 /// z16 float's, 2^-21) from a code, and to float where the format is z32f. Rounds depth.value to the nearest codes
-/// where it was read from floats, all of them floats of codes, under depth_rounding nearest. Varyings that a draw does not carry become 0.
+/// where it was read from floats, all of them floats of codes, under depth_rounding nearest. Varyings that a draw does
+/// not carry become 0.
 ///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
 /// n_eye without matrices, of cut where some vertices are lacking, of a p_win that cannot be snapped, of a position

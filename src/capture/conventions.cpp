@@ -16,6 +16,13 @@ double rounded(Conventions::Rounding rounding, double v) {
   return rounding == down ? std::floor(v) : rounding == up ? std::ceil(v) : std::nearbyint(v);
 }
 
+Conventions::Rounding subpixel_rounding(const Conventions& conventions, int axis) {
+  using enum Conventions::Rounding;
+  const Conventions::Rounding declared = conventions.subpixel_rounding;
+  if (axis == 0 || conventions.window_y == Conventions::WindowY::up || declared == nearest) return declared;
+  return declared == down ? up : down;
+}
+
 double middle_of(Conventions::Rounding rounding) {
   using enum Conventions::Rounding;
   return rounding == down ? 0.5 : rounding == up ? -0.5 : 0;
@@ -30,7 +37,7 @@ double snapped(const Conventions& conventions, int axis, double from_centre) {
   // to_dialect() moved positions by `moved`, and snapped ones by `moved`, rounded.
   const double steps = std::ldexp(1.0, kBits - bits), half = std::ldexp(0.5, kBits),
                moved = half - std::ldexp(conventions.sample[axis], kBits);
-  const double from_side = rounded(conventions.subpixel_rounding, (from_centre - moved + half) / steps) * steps;
+  const double from_side = rounded(subpixel_rounding(conventions, axis), (from_centre - moved + half) / steps) * steps;
   return from_side - half + std::round(moved);
 }
 
@@ -46,7 +53,7 @@ double in_steps(const Conventions& conventions, int axis, double p_win) {
 }
 
 double on_grid(const Conventions& conventions, int axis, double p_win) {
-  return rounded(conventions.subpixel_rounding, in_steps(conventions, axis, p_win));
+  return rounded(subpixel_rounding(conventions, axis), in_steps(conventions, axis, p_win));
 }
 
 bool settles_grid(const Conventions& c) {
@@ -56,7 +63,9 @@ bool settles_grid(const Conventions& c) {
   if (is_open("subpixel_bits") || is_open("subpixel_rounding") || is_open("sample")) return false;
   if (c.subpixel_bits < 0 || c.subpixel_bits > kFinest) return false;
   const bool is_to_nearest = c.subpixel_rounding == Conventions::Rounding::nearest;
-  if (!is_to_nearest && (c.rows != Conventions::Rows::from_bottom || is_open("rows"))) return false;
+  const bool is_y_known =
+      c.window_y == Conventions::WindowY::down || (c.rows == Conventions::Rows::from_bottom && !is_open("rows"));
+  if (!is_to_nearest && (!is_y_known || is_open("window_y"))) return false;
   const glm::dvec2 sample = std::ldexp(1.0, std::max(c.subpixel_bits, kOfRecords)) * c.sample;
   return sample == glm::round(sample);
 }

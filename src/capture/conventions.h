@@ -17,6 +17,7 @@ namespace plumbline {
 struct Conventions {
   enum class Rows { from_bottom, from_top };
   enum class Rounding { nearest, down, up };
+  enum class WindowY { up, down };
   enum class TieRule { any, left_bottom, left_top, right_bottom, right_top, inclusive, exclusive };
   enum class DepthRange { zero_to_one, minus_one_to_one, one_to_zero };
   enum class Depth { as_asked, z16, z24, z32f };
@@ -49,6 +50,7 @@ struct Conventions {
   int texture_bits = kFloat;
   Rows rows = Rows::from_bottom;
   Rounding subpixel_rounding = Rounding::nearest;
+  WindowY window_y = WindowY::up;
   TieRule tie_rule = TieRule::any;
   DepthRange depth_range = DepthRange::zero_to_one;
   Depth depth_format = Depth::as_asked;
@@ -85,6 +87,8 @@ template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Rows> = {"from_bottom", "from_top"};
 template <>
 inline constexpr std::array<Name, 3> kNamesOf<Conventions::Rounding> = {"nearest", "down", "up"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::WindowY> = {"up", "down"};
 template <>
 inline constexpr std::array<Name, 7> kNamesOf<Conventions::TieRule> = {
     "any", "left_bottom", "left_top", "right_bottom", "right_top", "inclusive", "exclusive"};
@@ -132,6 +136,10 @@ double rounded(Conventions::Rounding rounding, double v);
 /// Middle of the interval that the rounding maps to 0: 0 (nearest), 1/2 (down) or -1/2 (up).
 double middle_of(Conventions::Rounding rounding);
 
+/// How window positions of an axis (0: x, 1: y) are snapped, y pointing up: where window_y is down, y that is rounded
+/// down is rounded up.
+Conventions::Rounding subpixel_rounding(const Conventions& conventions, int axis);
+
 /// The sRGB encoding of a linear intensity, both in [0,1] (IEC 61966-2-1).
 double srgb_encoded(double linear);
 
@@ -170,6 +178,7 @@ void each_choice(Visit visit) {
   using C = Conventions;
   visit(ConventionWords{"rows", "the order of the picture's rows, or y turned round", false}, &C::rows);
   visit(ConventionWords{"subpixel_rounding", "how window positions are snapped", true}, &C::subpixel_rounding);
+  visit(ConventionWords{"window_y", "the way y points where positions are snapped", true}, &C::window_y);
   visit(ConventionWords{"tie_rule", "edges that own a sample on them", true}, &C::tie_rule);
   visit(ConventionWords{"depth_range", "depths that are left, from the near plane to the far one", false},
         &C::depth_range);
@@ -218,8 +227,8 @@ inline constexpr ConventionWords kFloatOffsetWords{"float_offset_unit", "a polyg
                                                    true};
 
 /// Whether the declared grid and sample settle where corners and samples lie: subpixel_bits 0 to 10, the sample at a
-/// multiple of 1/256 pixel or on the grid; where rows count from the top, subpixel_rounding nearest (down and up swap
-/// in y alone).
+/// multiple of 1/256 pixel or on the grid; where rows count from the top, subpixel_rounding nearest or window_y down
+/// (else y may be rounded either way).
 bool settles_grid(const Conventions& conventions);
 /// Whether, besides, the declared tie rule settles which triangle owns a sample on an edge.
 bool settles_ties(const Conventions& conventions);

@@ -18,7 +18,7 @@ const std::vector<Probe>& probes() {
   static const std::vector<Probe> all = {
       {learn_clipping, {"clip_depth", "depth_planes"}},
       {learn_depths, {"depth_range", "depth_format", "depth_rounding"}},
-      {learn_grid, {kSampleWords.name, "subpixel_bits", "subpixel_rounding"}},
+      {learn_grid, {kSampleWords.name, "subpixel_bits", "subpixel_rounding", "window_y"}},
       {learn_ties, {"tie_rule"}},
       {learn_colors, {"color_rounding", "color_encoding"}},
       {learn_interpolation, {"interpolation", "color_interpolation"}},

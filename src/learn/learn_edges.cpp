@@ -21,7 +21,9 @@ namespace {
 using C = Conventions;
 using Triangles = std::vector<std::array<ProbeCorner, 3>>;
 
-constexpr int kLong = 1024, kStrip = 4, kStrips = 16;
+// A strip's rows, and the distance to the next strip, whose lower side is kept off this strip's upper samples. Frames
+// have 2^n pixels a side, so that corners on the grid stay there in float.
+constexpr int kLong = 1024, kStrip = 4, kPitch = 8, kStrips = 16;
 
 ProbeCorner corner(int along, double a, double b) {
   return {along == 0 ? glm::dvec3(a, b, kFlatDepth) : glm::dvec3(b, a, kFlatDepth), glm::vec4(1), {}};
@@ -52,11 +54,11 @@ std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vecto
   std::vector<Edge> out;
   for (std::size_t first = 0; first < offsets.size(); first += kStrips) {
     const std::size_t n = std::min<std::size_t>(kStrips, offsets.size() - first);
-    const int across = kStrip * kStrips;
+    const int across = kPitch * kStrips;
     Scene scene = along == 0 ? probe_frame("grid_y", kLong, across) : probe_frame("grid_x", across, kLong);
     Triangles triangles;
     for (std::size_t i = 0; i < n; ++i) {
-      const double low = kStrip * static_cast<double>(i), at = low + 2 + offsets[first + i];
+      const double low = kPitch * static_cast<double>(i), at = low + 2 + offsets[first + i];
       const double to = low + (side == Side::below ? 0.25 : 3.75);
       std::array corners = {corner(along, 0, to), corner(along, kLong, to), corner(along, kLong, at + rise),
                             corner(along, 0, at)};
@@ -70,7 +72,7 @@ std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vecto
       std::vector<int> counts(kLong, 0);
       for (int k = 0; k < kLong; ++k) {
         for (int row = 0; row < kStrip; ++row) {
-          const int b = kStrip * static_cast<int>(i) + row;
+          const int b = kPitch * static_cast<int>(i) + row;
           counts[static_cast<std::size_t>(k)] += is_white(along == 0 ? color(k, b) : color(b, k)) ? 1 : 0;
         }
       }
@@ -236,7 +238,14 @@ glm::dvec2 sample_by_diagonal(Prober& prober, glm::dvec2 sample) {
 struct Grids {
   std::optional<Grid> rows, columns;
   bool explain() const { return rows && columns && rows->explains && columns->explains; }
-  bool differ() const { return rows->bits != columns->bits || rows->rounding != columns->rounding; }
+  // Whether y is rounded down where x is rounded up, or up where x is rounded down.
+  bool turn_y() const {
+    const auto is = [&](C::Rounding of_x, C::Rounding of_y) {
+      return columns->rounding == of_x && rows->rounding == of_y;
+    };
+    return is(C::Rounding::down, C::Rounding::up) || is(C::Rounding::up, C::Rounding::down);
+  }
+  bool differ() const { return rows->bits != columns->bits || (rows->rounding != columns->rounding && !turn_y()); }
   double scatter() const {  // of the sample's place [pixels]
     return rows && columns ? std::max(rows->scatter, columns->scatter) : std::numeric_limits<double>::infinity();
   }
@@ -281,9 +290,10 @@ std::optional<glm::dvec2> sample_of(Prober& prober, const Grids& grids) {
 
 void learn_grid(Prober& prober) {
   constexpr double kMostScatter = 0.125;  // [pixels] at which a sample's place is still known
-  const ConventionWords bits = words_of("subpixel_bits"), rounding = words_of("subpixel_rounding");
+  const ConventionWords bits = words_of("subpixel_bits"), rounding = words_of("subpixel_rounding"),
+                        window_y = words_of("window_y");
   const auto open_all = [&](const char* why) {
-    for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, why);
+    for (const ConventionWords& words : {kSampleWords, bits, rounding, window_y}) prober.open(words, why);
   };
   const Grids grids = grids_of(prober);
   if (!grids.explain()) {
@@ -305,14 +315,21 @@ void learn_grid(Prober& prober) {
   c.sample = *sample;
   prober.found(kSampleWords, sample_text(c.sample), grids.explain() ? evidence : evidence + ", which scatter about it");
   if (!grids.explain()) {
-    for (const ConventionWords& words : {bits, rounding}) prober.open(words, "no grid explains the edges");
+    for (const ConventionWords& words : {bits, rounding, window_y}) prober.open(words, "no grid explains the edges");
     return;
   }
   c.subpixel_bits = grids.rows->bits;
-  c.subpixel_rounding = grids.rows->rounding;
+  c.subpixel_rounding = grids.columns->rounding;
+  c.window_y = grids.turn_y() ? C::WindowY::down : C::WindowY::up;
   prober.found(bits, bits_text(c.subpixel_bits),
                evidence + (c.subpixel_bits == C::kFloat ? fmt::format(" (or {} bits or more)", kMostBits + 1) : ""));
-  prober.found(rounding, c.subpixel_bits == C::kFloat ? "nearest" : name_of(c.subpixel_rounding), evidence);
+  if (c.subpixel_bits == C::kFloat) c.subpixel_rounding = C::Rounding::nearest, c.window_y = C::WindowY::up;
+  const bool is_rounded = c.subpixel_bits != C::kFloat;
+  prober.found(rounding, name_of(c.subpixel_rounding), is_rounded ? evidence : "positions are not snapped");
+  prober.found(window_y, name_of(c.window_y),
+               c.subpixel_rounding != C::Rounding::nearest
+                   ? fmt::format("y is rounded {}", name_of(grids.rows->rounding))
+                   : "positions are not rounded down or up: y may point either way");
 }
 
 }  // namespace plumbline::learn

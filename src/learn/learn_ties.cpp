@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -34,8 +35,13 @@ struct Samples {
   std::size_t all() const { return none + one + both; }
 };
 struct FanEdges {
-  Samples samples, straight;           // all; of them, those on horizontal and vertical edges
-  std::array<std::size_t, 4> by_rule;  // of samples.one, how many each of kRules gives to their triangle
+  Samples samples, straight;             // all; of them, those on horizontal and vertical edges
+  std::array<std::size_t, 4> by_rule{};  // of samples.one, how many each of kRules gives to their triangle
+  void add(const FanEdges& other) {
+    const auto sum = [](Samples& to, const Samples& of) { to.none += of.none, to.one += of.one, to.both += of.both; };
+    sum(samples, other.samples), sum(straight, other.straight);
+    for (std::size_t r = 0; r < by_rule.size(); ++r) by_rule[r] += other.by_rule[r];
+  }
 };
 
 // A fan about a hub, out to a square of side 2 radius, whose edges pass through samples.
@@ -51,8 +57,10 @@ Fan through_samples(glm::dvec2 sample) { return {sample, 30, 1}; }
 // through centres half way. No level or upright edge does.
 constexpr Fan kThroughCentres{glm::dvec2(0), 27, 0.5};
 
+enum class Turn { counter_clockwise, clockwise };
+
 // Samples on the edges of a fan, of 40 triangles or 36.
-FanEdges fan_edges(Prober& prober, const Fan& fan) {
+FanEdges fan_edges(Prober& prober, const Fan& fan, Turn turn) {
   constexpr int kFan = 64, kCentre = 32, kStep = 6;
   std::vector<glm::ivec2> around;
   for (int k = -fan.radius; k < fan.radius; k += kStep) around.emplace_back(fan.radius, k);
@@ -67,6 +75,7 @@ FanEdges fan_edges(Prober& prober, const Fan& fan) {
     std::vector<std::array<ProbeCorner, 3>> triangles;
     for (std::size_t i = odd; i < around.size(); i += 2) {
       std::array<ProbeCorner, 3> t = {at({0, 0}), at(around[i]), at(around[(i + 1) % around.size()])};
+      if (turn == Turn::clockwise) std::swap(t[1], t[2]);
       std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(i / 2 % 3),
                   t.end());  // rules may go by corners' order
       triangles.push_back(t);
@@ -103,7 +112,12 @@ void learn_ties(Prober& prober) {
   if (!is_between && c.sample * steps != glm::round(c.sample * steps)) {
     return prober.open(words, "no edge can be laid through a sample: its place is not on the grid");
   }
-  const auto [samples, straight, by_rule] = fan_edges(prober, is_between ? kThroughCentres : through_samples(c.sample));
+  const Fan fan = is_between ? kThroughCentres : through_samples(c.sample);
+  FanEdges found = fan_edges(prober, fan, Turn::counter_clockwise);
+  // Rules may go by edges' directions. A renderer that drops back faces shows none of them.
+  const FanEdges clockwise = fan_edges(prober, fan, Turn::clockwise);
+  if (clockwise.samples.none < clockwise.samples.all()) found.add(clockwise);
+  const auto& [samples, straight, by_rule] = found;
   const std::size_t best = static_cast<std::size_t>(std::ranges::max_element(by_rule) - by_rule.begin());
   std::string evidence =
       fmt::format("{} of {} samples on a fan's edges are in one triangle", samples.one, samples.all());
@@ -112,7 +126,7 @@ void learn_ties(Prober& prober) {
     evidence += fmt::format(", {} by {}", by_rule[best], name_of(kRules[best]));
     if (is_between) evidence += "; no level edge passes through a sample";
     if (c.tie_rule == C::TieRule::any)
-      evidence += ": no rule: edges stepped in float, or a rule by the order of corners";
+      evidence += ": no rule: edges stepped in float, or a rule by corners' order or edges' directions";
   } else if (straight.both == straight.all() && samples.none == 0) {
     c.tie_rule = C::TieRule::inclusive;
   } else if (straight.none == straight.all() && samples.both == 0) {

@@ -8,7 +8,7 @@
 
 namespace plumbline::learn {
 
-/// Distance of a ramp's beginning from its snapped position [pixels]: just under half a step of the grid (rounding to
+/// Distance in x of a ramp's beginning from its snapped position [pixels]: just under half a step of the grid (rounding to
 /// the nearest) or a whole step (rounding down or up).
 inline double off_grid(const Conventions& c) {
   using enum Conventions::Rounding;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -33,7 +34,8 @@ TEST(LearnEdges, CornersOfAttributesAreFoundUnderEachRounding) {
   }
 }
 
-// Model space is the window. Positions may be rounded one way in x and another in y, which no convention is.
+// Model space is the window. Where y points down, positions are rounded one way in x and the other in y; no convention
+// says that they are rounded to the nearest in one of the two alone.
 TEST(LearnEdges, AGridOfWholePixelsIsFoundWithItsRounding) {
   const auto learned_of = [](auto x, auto y) {
     OfAlteredScenes renderer;
@@ -58,7 +60,15 @@ TEST(LearnEdges, AGridOfWholePixelsIsFoundWithItsRounding) {
   EXPECT_EQ(floored.subpixel_rounding, C::Rounding::down);
   EXPECT_EQ(raised.subpixel_rounding, C::Rounding::up);
   EXPECT_EQ(rounded.subpixel_rounding, C::Rounding::nearest);
-  const C mixed = learned_of(down, up);
+  EXPECT_EQ(floored.window_y, C::WindowY::up);
+  for (const C& c : {learned_of(down, up), learned_of(up, down)}) {
+    EXPECT_EQ(c.subpixel_bits, 0);
+    EXPECT_EQ(c.window_y, C::WindowY::down);
+    EXPECT_EQ(c.tie_rule, C::TieRule::left_bottom);
+  }
+  EXPECT_EQ(learned_of(down, up).subpixel_rounding, C::Rounding::down);
+  EXPECT_EQ(learned_of(up, down).subpixel_rounding, C::Rounding::up);
+  const C mixed = learned_of(down, nearest);
   EXPECT_TRUE(std::ranges::any_of(mixed.unexplained,
                                   [](const std::string& says) { return says.find("one grid in x") != says.npos; }));
 }
@@ -100,6 +110,26 @@ TEST(LearnEdges, ASampleAtACornerIsFoundWhateverTheTieRule) {
   const C found = learn(renderer).conventions;
   EXPECT_EQ(found.sample, glm::dvec2(0));
   EXPECT_EQ(found.tie_rule, C::TieRule::left_top);
+}
+
+// Samples on the lower side of one strip of triangles are no samples of the strip below.
+TEST(LearnEdges, AWholePixelsBorderIsFoundUnderEachTieRule) {
+  for (const auto& [fault, rule] : {std::pair("coverage.inclusive_edges", C::TieRule::inclusive),
+                                    std::pair("coverage.top_for_bottom", C::TieRule::left_top)}) {
+    for (const double shift : {0.5, -0.5}) {
+      OfAlteredScenes renderer(faulted(fault));
+      renderer.before = [=](Scene& scene) {
+        for (Mesh& mesh : scene.meshes) {
+          for (glm::vec3& p : mesh.positions) p.x = std::nearbyint(p.x), p.y = std::nearbyint(p.y);
+        }
+        scene.frame.pass.shift += glm::dvec2(0.5, shift);
+      };
+      const C found = learn(renderer).conventions;
+      EXPECT_EQ(found.subpixel_bits, 0) << fault;
+      EXPECT_EQ(found.sample, glm::dvec2(0, shift > 0 ? 0 : 1)) << fault;
+      EXPECT_EQ(found.tie_rule, rule) << fault;
+    }
+  }
 }
 
 // A tolerance of edge functions moves edges of one side as a sample off the centre would, and those of the other back.
@@ -178,6 +208,24 @@ TEST(LearnTies, OfCornersInTheirOrderAreNoRule) {
   stages.coverage = by_order_of_corners;
   const C found = learned(pipeline::make_pipeline(stages));
   EXPECT_THAT(found.unexplained, testing::Contains(testing::HasSubstr("samples on a fan's edges")));
+}
+
+// Samples on an edge are its triangle's where the edge leads down or to the left; of clockwise triangles these edges are
+// the others.
+std::vector<glm::ivec2> by_direction_of_edges(const pipeline::WindowTriangle& triangle,
+                                              const pipeline::PixelBounds& box) {
+  pipeline::Edges edges = pipeline::edges_of(triangle);
+  for (int i = 0; i < 3; ++i) {
+    const bool owned = edges.step_x[i] > 0 || (edges.step_x[i] == 0 && edges.step_y[i] > 0);
+    if (!triangle.front) edges.at_origin[i] += owned ? -1 : 1;
+  }
+  return pipeline::covered_pixels(edges, pipeline::pixel_bounds(triangle), box);
+}
+
+TEST(LearnTies, ByTheDirectionOfEdgesAreNoRule) {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.coverage = by_direction_of_edges;
+  EXPECT_EQ(learned(pipeline::make_pipeline(stages)).tie_rule, C::TieRule::any);
 }
 
 // Pixel (37, 33) is one whose sample lies on a slanted edge, between two triangles of two frames.

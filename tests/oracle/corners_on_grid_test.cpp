@@ -31,12 +31,18 @@ C whole_pixels(C::Rounding rounding, double sample) {
   return out;
 }
 
+// The renderer's own y points down: H - y is rounded.
+double snapped_y(const C& c, double y) {
+  if (c.window_y == C::WindowY::up) return rounded(c.subpixel_rounding, y);
+  return kSize - rounded(c.subpixel_rounding, kSize - y);
+}
+
 // Barycentric coordinates of a pixel's sample between the snapped corners.
 glm::dvec3 shares(const C& c, int x, int y) {
   std::array<glm::dvec2, 3> p;
   for (std::size_t i = 0; i < 3; ++i) {
     p[i] = {rounded(c.subpixel_rounding, static_cast<double>(kCorners[i].x)),
-            rounded(c.subpixel_rounding, static_cast<double>(kCorners[i].y))};
+            snapped_y(c, static_cast<double>(kCorners[i].y))};
   }
   const glm::dvec2 at = glm::dvec2(x, y) + c.sample, e1 = p[1] - p[0], e2 = p[2] - p[0], d = at - p[0];
   const double area = e1.x * e2.y - e1.y * e2.x, b1 = (d.x * e2.y - d.y * e2.x) / area,
@@ -46,9 +52,12 @@ glm::dvec3 shares(const C& c, int x, int y) {
 
 TEST(CornersOnGrid, LeaveCoverageColorAndDepthOneAnswer) {
   const Scene scene = colored_scene();
-  for (const auto rounding : {C::Rounding::nearest, C::Rounding::down, C::Rounding::up}) {
+  for (const auto& [rounding, window_y] :
+       {std::pair(C::Rounding::nearest, C::WindowY::up), std::pair(C::Rounding::down, C::WindowY::up),
+        std::pair(C::Rounding::up, C::WindowY::up), std::pair(C::Rounding::down, C::WindowY::down)}) {
     for (const double sample : {0.5, 0.0, 0.25}) {
-      const C c = whole_pixels(rounding, sample);
+      C c = whole_pixels(rounding, sample);
+      c.window_y = window_y;
       const Legal by = legal(scene, c);
       int inside = 0;
       for (int y = 0; y < kSize; ++y) {

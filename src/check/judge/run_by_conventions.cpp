@@ -57,17 +57,18 @@ double bias_of(C::Rounding rounding) {
 }
 
 Capture window_on_grid(Renderer& referee, const Scene& scene, const Capture& in, const C& conventions) {
-  const double times = std::ldexp(1.0, bits_of_grid(scene, in.records, conventions) - 8),
-               bias = 0.5 + bias_of(conventions.subpixel_rounding) / kSubpixel;
+  const double times = std::ldexp(1.0, bits_of_grid(scene, in.records, conventions) - 8);
+  glm::dvec2 bias{};
+  for (int i = 0; i < 2; ++i) bias[i] = 0.5 + bias_of(subpixel_rounding(conventions, i)) / kSubpixel;
   Capture magnified = in;
   for (Matrices<double>& m : magnified.records.matrices) {
-    for (int i = 0; i < 2; ++i) m.win_scale[i] *= times, m.win_translate[i] = m.win_translate[i] * times + bias;
+    for (int i = 0; i < 2; ++i) m.win_scale[i] *= times, m.win_translate[i] = m.win_translate[i] * times + bias[i];
   }
   Capture out = referee.run_stage(scene, Stage::window, magnified);
   for (WindowTriangle<double>& t : out.records.triangles) {
     for (WindowVertex<double>& v : t.v) {
       for (int i = 0; i < 2; ++i) {
-        v.p_win[i] = (v.p_win[i] - bias) / times + 0.5 - conventions.sample[i];
+        v.p_win[i] = (v.p_win[i] - bias[i]) / times + 0.5 - conventions.sample[i];
         v.snapped[i] = whole_in_range(snapped(conventions, i, (v.p_win[i] - 0.5) * kSubpixel));
       }
     }

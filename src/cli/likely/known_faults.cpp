@@ -197,9 +197,9 @@ std::vector<std::string_view> declared_faults(const Conventions& c) {
   if (c.tie_rule == inclusive) out.push_back("coverage.inclusive_edges");
   if (c.tie_rule == exclusive) out.push_back("notes.000.strict_edges");
   if (c.tie_rule == left_top) out.push_back("coverage.top_for_bottom");
-  const bool in_whole_pixels = settles_grid(c) && c.subpixel_bits == 0 &&
-                               c.subpixel_rounding == Conventions::Rounding::down &&
-                               c.attribute_corners == Conventions::Corners::snapped;
+  const bool in_whole_pixels =
+      settles_grid(c) && c.subpixel_bits == 0 && c.subpixel_rounding == Conventions::Rounding::down &&
+      c.window_y == Conventions::WindowY::up && c.attribute_corners == Conventions::Corners::snapped;
   if (in_whole_pixels && c.sample == glm::dvec2(0.5)) out.push_back("window.whole_pixels");
   if (in_whole_pixels && c.sample == glm::dvec2(0)) out.push_back("window.whole_centres");  // borders, moved by 1/2
   return out;

@@ -241,7 +241,7 @@ std::string convention_notes(const std::string& file) {
                        : conventions.tie_rule == Conventions::TieRule::any
                            ? fmt::format("{} declares no tie rule", file)
                            : "a rule is settled by subpixel_bits 0 to 10, the sample at a multiple of 1/256 pixel or "
-                             "on the grid; where rows count from the top, subpixel_rounding nearest");
+                             "on the grid; where rows count from the top, subpixel_rounding nearest or window_y down");
   return out;
 }
 
