@@ -161,8 +161,9 @@ FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending,
                        BlendedIn numbers)
     : unit_(frame.color == ColorFormat::rgba32f ? 1 : color_scale(frame.color)),
       codes_(frame.color != ColorFormat::rgba32f),
-      blends_codes_(codes_ && blending == Conventions::Blending::in_codes),
+      blends_codes_(codes_ && blending != Conventions::Blending::in_float),
       blends_in_float_(numbers == BlendedIn::floats),
+      truncates_products_(blending == Conventions::Blending::in_codes_down),
       rounding_(rounding),
       written_{},
       stored_{} {
@@ -178,21 +179,25 @@ FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending,
 void FrameColor::write(const Merge& state, const ColorInterval& color) {
   const Interval lowest{0, 0}, highest{unit_, unit_};
   const auto clamped = [&](Interval v) { return codes_ ? lesser(greater(v, lowest), highest) : v; };
-  // Range of a rounding to a code, where blending is in codes: [-below, above].
-  const double below = !blends_codes_ || rounding_ == Conventions::Rounding::up ? 0
-                       : rounding_ == Conventions::Rounding::nearest            ? 0.5
-                                                                                : 1,
+  // Range of a rounding to a code, where blending is in codes: [-below, above]; of a factor, and of a product.
+  const auto below_of = [&](Conventions::Rounding rounding) {
+    return !blends_codes_ || rounding == Conventions::Rounding::up ? 0
+           : rounding == Conventions::Rounding::nearest            ? 0.5
+                                                                   : 1;
+  };
+  const double below_factor = below_of(rounding_), above_factor = blends_codes_ ? 1 - below_factor : 0;
+  const double below = below_of(truncates_products_ ? Conventions::Rounding::down : rounding_),
                above = blends_codes_ ? 1 - below : 0;
   constexpr double kRoundings = 4;  // in float, of a factor, two products and their sum
   ColorInterval source, blended, result, constant = around(glm::dvec4(0), 0);
   std::array<double, 4> rounding{};  // of blending in float
   for (std::size_t c = 0; c < 4; ++c) source[c] = clamped({color[c].lo * unit_, color[c].hi * unit_});
-  for (std::size_t c = 0; c < 4; ++c) blended[c] = clamped({source[c].lo - below, source[c].hi + above});
+  for (std::size_t c = 0; c < 4; ++c) blended[c] = clamped({source[c].lo - below_factor, source[c].hi + above_factor});
   for (std::size_t c = 0; state.blend && c < 4; ++c) {
     const double v = static_cast<double>(state.blend->color[static_cast<int>(c)]) * unit_;
     const double slack = unit_ * 0x1p-22;  // of v, scaled in float
-    constant[c] =
-        blends_codes_ ? clamped({std::ceil(v - below - slack), std::floor(v + above + slack)}) : clamped({v, v});
+    constant[c] = blends_codes_ ? clamped({std::ceil(v - below_factor - slack), std::floor(v + above_factor + slack)})
+                                : clamped({v, v});
   }
   for (std::size_t c = 0; c < 4; ++c) {
     if (!state.blend || state.logic_op) {

@@ -36,7 +36,8 @@ enum class BlendedIn { doubles, floats };
 
 class FrameColor {
  public:
-  /// A pixel of the clear colour. `blending` in_codes: `rounding` makes codes of each factor and of each product, too.
+  /// A pixel of the clear colour. `blending` in_codes: `rounding` makes codes of each factor and of each product, too;
+  /// in_codes_down: of each factor, and products are rounded down.
   /// `rounding`: of colours to the codes that are stored and read again.
   explicit FrameColor(const FrameFormat& frame, Conventions::Blending blending = Conventions::Blending::in_float,
                       Conventions::Rounding rounding = Conventions::Rounding::nearest,
@@ -55,6 +56,7 @@ class FrameColor {
   bool codes_;
   bool blends_codes_;
   bool blends_in_float_;
+  bool truncates_products_;
   Conventions::Rounding rounding_;
   ColorInterval written_, stored_;  // times unit_
 };

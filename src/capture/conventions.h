@@ -32,7 +32,7 @@ struct Conventions {
   enum class Provoking { last, first };
   enum class AlphaTest { in_codes, in_float, either };
   enum class LevelOfDetail { per_pixel, per_square, approximate };
-  enum class Blending { in_float, in_codes };
+  enum class Blending { in_float, in_codes, in_codes_down };
   enum class FogFactor { per_fragment, per_vertex };
   enum class ColorNumbers { in_float, in_codes };
   enum class Magnified { up_to_half, up_to_zero };
@@ -121,7 +121,7 @@ inline constexpr std::array<Name, 3> kNamesOf<Conventions::AlphaTest> = {"in_cod
 template <>
 inline constexpr std::array<Name, 3> kNamesOf<Conventions::LevelOfDetail> = {"per_pixel", "per_square", "approximate"};
 template <>
-inline constexpr std::array<Name, 2> kNamesOf<Conventions::Blending> = {"in_float", "in_codes"};
+inline constexpr std::array<Name, 3> kNamesOf<Conventions::Blending> = {"in_float", "in_codes", "in_codes_down"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::FogFactor> = {"per_fragment", "per_vertex"};
 template <>

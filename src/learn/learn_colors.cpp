@@ -248,17 +248,23 @@ void learn_blending(Prober& prober) {
   const auto left_under = [&](int i) {
     return of_vertices ? static_cast<double>(code_under(i)) : rounded(rounding, code_under(i) + 0.3);
   };
-  double most = 0;
+  double most = 0, least = 0, largest = 0, sum = 0;  // of the differences [codes]
   for (int i = 0; i < kAll; ++i) {
     const double a = alpha_of_fragment(static_cast<double>(alpha(i)));
     const double first = a * 255 * over(i) + (1 - a) * left_under(i);
     const double exact = a * 255 * over(i) + (1 - a) * rounded(rounding, first);
-    most = farther(most, 255 * static_cast<double>(pixel_of(color, i).r) - exact);
+    const double off = 255 * static_cast<double>(pixel_of(color, i).r) - exact;
+    most = farther(most, off);
+    least = std::min(least, off), largest = std::max(largest, off), sum += off;
   }
   const double once = rounding == C::Rounding::nearest ? 0.501 : 1.001;
   const std::string evidence = fmt::format("{} blends in two layers, {:.2f} codes off at most", kAll, most);
+  // Products that are rounded down: four of the two layers, half a code too small in the mean, a code at most.
+  const bool is_down = rounding != C::Rounding::down && sum < -0.75 * kAll && largest < 1.5 && least > -4.5;
   if (most > once + 4) return prober.fits_none(words, evidence);
-  prober.learned.conventions.blending = most > once ? C::Blending::in_codes : C::Blending::in_float;
+  prober.learned.conventions.blending = most <= once ? C::Blending::in_float
+                                        : is_down    ? C::Blending::in_codes_down
+                                                     : C::Blending::in_codes;
   prober.found(words, name_of(prober.learned.conventions.blending), evidence);
 }
 

@@ -71,6 +71,31 @@ TEST(LearnFragmentColors, CodesAreFound) {
   EXPECT_EQ(learned(pipeline::make_pipeline(test::stages_in_codes())), expected);
 }
 
+// Blending in integers: factors are the nearest codes, and products are rounded. `stored` holds codes.
+template <double (*whole)(double)>
+pipeline::Color<float> blend_in_codes(const Blend& state, const pipeline::Color<float>& source,
+                                      const pipeline::Color<float>& stored, float) {
+  const auto code = [](float v) { return std::nearbyint(255.0 * static_cast<double>(v)); };
+  const double a = code(source.a);
+  const auto blended = [&](float s, float d) {
+    const double sum = whole(code(s) * a / 255) + whole(static_cast<double>(d) * (255 - a) / 255);
+    return static_cast<float>(std::min(sum, 255.0));
+  };
+  EXPECT_EQ(state.rgb.source, BlendFactor::source_alpha);
+  return {blended(source.r, stored.r), blended(source.g, stored.g), blended(source.b, stored.b),
+          blended(source.a, stored.a)};
+}
+
+TEST(LearnBlending, ProductsMayBeRoundedDownAlone) {
+  const auto found = [](auto blend) {
+    pipeline::Stages stages = pipeline::production_stages();
+    stages.blend = blend;
+    return learned(pipeline::make_pipeline(stages)).blending;
+  };
+  EXPECT_EQ(found(blend_in_codes<std::floor>), C::Blending::in_codes_down);
+  EXPECT_EQ(found(blend_in_codes<std::nearbyint>), C::Blending::in_codes);
+}
+
 TEST(LearnInterpolation, ColoursAloneMayBeAffine) {
   C expected = ours();
   expected.color_interpolation = C::ColorInterpolation::affine;

@@ -97,6 +97,22 @@ TEST(BlendedFrame, CodesAreRoundedDownWhereThatIsDeclared) {
   }
 }
 
+// Products truncated, factors to the nearest: 50 * 50 / 255 and 193 * 62 / 255 make 9 + 46.
+TEST(BlendedFrame, ProductsAloneAreRoundedDownWhereThatIsDeclared) {
+  const auto range = [](Conventions::Blending blending_in) {
+    FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(62, 62, 62, 62) / 255.0f), blending_in);
+    color.write(blending(BlendFactor::source_alpha, BlendFactor::one_minus_destination_alpha),
+                around(glm::dvec4(50 / 255.0), 0));
+    return std::pair(255 * color.written()[0].lo, 255 * color.written()[0].hi);
+  };
+  const double exact = (50 * 50 + 62 * 193) / 255.0;
+  const auto [low, high] = range(Conventions::Blending::in_codes_down);
+  EXPECT_LE(low, 55.5) << "55 and half a code";
+  EXPECT_GE(low, exact - 3.001) << "of two products, and of the factor 50";
+  EXPECT_LE(high, exact + 0.501);
+  EXPECT_GT(range(Conventions::Blending::in_codes).first, 55.5);
+}
+
 // d + a (s - d) for s a + d (1 - a).
 TEST(BlendedFrame, AFloatFrameHoldsMixesByOneProduct) {
   Merge mix = blending(BlendFactor::constant_alpha, BlendFactor::one_minus_constant_alpha);
