@@ -196,8 +196,8 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
   group({Stage::matrices, "matrices.light", Per::light}, of(&R::lights), Column{"p_eye", &L::p_eye},
         Column{"spot_eye", &L::spot_eye});
   using V = Vertex<double>;
-  group({Stage::vertex, "vertex"}, of(&R::vertices), Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
-        Column{"n_eye", &V::n_eye, kDerivable});
+  group({Stage::vertex, "vertex"}, of(&R::vertices), Column{"p_eye", &V::p_eye, kDerivable},
+        Column{"p_clip", &V::p_clip}, Column{"n_eye", &V::n_eye, kDerivable});
   group({Stage::light, "light"}, of(&R::lit), Column{"color", &Lit<double>::color});
   using Clipped = ClipVertex<double>;
   group(

@@ -58,9 +58,29 @@ Vec3<double> unit(const Vec3<double>& v) {
   return length > 0 ? v / length : v;
 }
 
-// Normals of draws that are lit per fragment are those that fragments' are interpolated from, where these are shown.
+// Positions in eye space: by the matrices; NaN where these are lacking, as a renderer of one matrix has none.
+void derive_positions(const DrawIndex& draws, Records<double>& r) {
+  const bool has_matrices = r.matrices.size() == draws.ranges().size() && r.vertices.size() == draws.vertices();
+  if (!has_matrices) {
+    for (Vertex<double>& v : r.vertices) v.p_eye = Vec4<double>(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  for (std::size_t d = 0; d < draws.ranges().size(); ++d) {
+    const Mesh& mesh = draws.scene().meshes[draws.scene().draws[d].mesh];
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      r.vertices[draws.ranges()[d].first_vertex + v].p_eye =
+          r.matrices[d].model_view * Vec4<double>(Vec3<double>(mesh.positions[v]), 1);
+  }
+}
+
+// Normals by the matrices; NaN without these. Of draws lit per fragment: those that fragments' are interpolated from,
+// where they are shown.
 void derive_normals(const DrawIndex& draws, Records<double>& r) {
   const std::vector<Vec4<double>>& carried = r.varyings[Varying::normal].vertices;
+  if (r.matrices.empty()) {
+    for (Vertex<double>& v : r.vertices) v.n_eye = Vec3<double>(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   if (r.matrices.size() != draws.ranges().size())
     throw std::invalid_argument("vertex.n_eye: left out, and matrices.* are not there for all draws");
   if (r.vertices.size() != draws.vertices())
@@ -280,6 +300,7 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   const DrawIndex draws(scene);
   Records<double>& r = capture.records;
   std::ranges::stable_sort(r.polygons.polygons, {}, &ClipPolygon::primitive);
+  if (capture.derived.contains("vertex.p_eye")) derive_positions(draws, r);
   if (capture.derived.contains("vertex.n_eye")) derive_normals(draws, r);
   if (capture.derived.contains("clip.cut")) derive_cut(draws, r);
   if (capture.derived.contains("texture.lod")) {
@@ -289,7 +310,7 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   sort_triangles(capture);
   sort_fragments(capture);
   visit_capture(ClearUnused{draws, r}, capture);
-  capture.snapped_by = capture.derived.contains("window.snapped") ? SnappedBy::conventions : SnappedBy::renderer;
+  if (capture.derived.contains("window.snapped")) capture.snapped_by = SnappedBy::conventions;
   capture.derived.clear();
   const DepthFormat format = depth_format_of(scene.frame, conventions);
   const double codes = depth_scale(format);

@@ -10,10 +10,11 @@ namespace plumbline {
 /// Sorts polygons and window triangles by primitive (stable), and fragments by triangle, row and column. The drawing
 /// order is judged by the frame.
 ///
-/// Fills the columns named in `capture.derived`, and clears that set. vertex.n_eye: from the capture's matrices and the
-/// mesh; of draws lit per fragment the normal varying of vertices, where it is shown. clip.cut: false where p_clip is
-/// that of a vertex of the primitive, within 2^-22 of its largest coordinate (true where there are no vertices, and
-/// clip is not judged). window.snapped: from p_win and the conventions. window.front: by the sign of the area on the conventions' grid. Where the draw culls that face, and the area is 0 on
+/// Fills the columns named in `capture.derived`, and clears that set. vertex.p_eye, n_eye: from the capture's matrices
+/// and the mesh, NaN without matrices; n_eye of draws lit per fragment the normal varying of vertices, where it is
+/// shown. clip.cut: false where p_clip is that of a vertex of the primitive, within 2^-22 of its largest coordinate
+/// (true where there are no vertices, and clip is not judged). window.snapped: from p_win and the conventions.
+/// window.front: by the sign of the area on the conventions' grid. Where the draw culls that face, and the area is 0 on
 /// the grid or of the other sign without snapping, it is the other face. window.corners, window.width: from the mesh
 /// and the draw. texture.lod: NaN, as no recorded column determines it.
 ///
@@ -23,8 +24,8 @@ namespace plumbline {
 /// not carry become 0.
 ///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
-/// n_eye without matrices, of cut where some vertices are lacking, of a p_win that cannot be snapped, of a position
-/// beyond 2^22 pixels or a width beyond 64, of front and corners where a draw's polygons are not filled.
+/// n_eye where draws' matrices are lacking, of cut where some vertices are lacking, of a p_win that cannot be snapped,
+/// of a position beyond 2^22 pixels or a width beyond 64, of front and corners where a draw's polygons are not filled.
 void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions = {});
 
 }  // namespace plumbline

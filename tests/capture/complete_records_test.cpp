@@ -116,6 +116,19 @@ TEST(CompleteRecords, FillWhatFollowsFromOthers) {
   EXPECT_GT(scenes, 300u);
 }
 
+// A program's capture is completed once where it is read, and again where it is replayed.
+TEST(CompleteRecords, KeepWhoSnappedThePositions) {
+  const Scene scene = suite_scene("coverage/fan");
+  Capture capture = whole_capture(scene);
+  complete_records(scene, capture);
+  EXPECT_EQ(capture.snapped_by, SnappedBy::renderer);
+  capture.derived = {"window.snapped"};
+  for (int i = 0; i < 2; ++i) {
+    complete_records(scene, capture);
+    EXPECT_EQ(capture.snapped_by, SnappedBy::conventions);
+  }
+}
+
 // In double, of matrices in float: as near as the pipeline's own normals.
 TEST(CompleteRecords, FillNormalsByTheMatrices) {
   for (const char* name : {"light/normals_uneven", "light/normals_grown", "light/sphere_gouraud"}) {
@@ -190,7 +203,7 @@ TEST(CompleteRecords, RefuseWhatNothingFollowsFrom) {
   }
   Capture capture = whole_capture(scene);
   capture.derived = {"vertex.n_eye"};
-  capture.records.matrices.clear();
+  capture.records.matrices.push_back(capture.records.matrices.front());
   expect_refused(scene, capture, "vertex.n_eye: left out, and matrices.* are not there for all draws");
   capture = whole_capture(scene);
   capture.derived = {"vertex.n_eye"};

@@ -140,6 +140,26 @@ void add(Plane<T>& sum, const Plane<T>& other) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum.values()[i] += other.values()[i];
 }
 
+bool is_turned_over(const WindowTriangle<double>& t) {
+  const double lies = twice_area(t, kUnsnapped), snapped = twice_area(t, kSnapped);
+  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0 ? snapped <= 0 : snapped >= 0);
+}
+
+// True of a triangle that the grid turns over, and that is faced (and was not culled) by its unsnapped corners.
+bool faces_unsnapped(const WindowTriangle<double>& t) {
+  return is_turned_over(t) && t.front == (twice_area(t, kUnsnapped) > 0);
+}
+
+// Window triangles alone; those of faces_unsnapped() face as their snapped corners, whose inside exact covers.
+Capture faced_by_grid(const Capture& in) {
+  Capture out;
+  out.width = in.width;
+  out.height = in.height;
+  out.records.triangles = in.records.triangles;
+  for (WindowTriangle<double>& t : out.records.triangles) t.front = t.front != faces_unsnapped(t);
+  return out;
+}
+
 Capture cover_by_rule(Renderer& referee, const Scene& scene, const Capture& in, Mirror by) {
   Capture window = window_records(in, true);
   mirror(window, scene.frame, by);
@@ -161,11 +181,6 @@ Capture cover_by_rule(Renderer& referee, const Scene& scene, const Capture& in, 
 }
 
 // ---- depth, attributes, texture
-
-bool is_turned_over(const WindowTriangle<double>& t) {
-  const double lies = twice_area(t, kUnsnapped), snapped = twice_area(t, kSnapped);
-  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0 ? snapped <= 0 : snapped >= 0);
-}
 
 // Snapped corners that face as the unsnapped ones; exact reads nothing but the facing from them. (It interpolates
 // between the snapped corners of triangles that snapping turns over: reference/exact/barycentric.h.)
@@ -352,7 +367,12 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
     }
     case Stage::coverage: {
       const Mirror by = mirror_of(conventions.tie_rule);
-      if (!knows_ties(scene, conventions) || !(by.x || by.y)) break;
+      const bool is_mirrored = knows_ties(scene, conventions) && (by.x || by.y);
+      if (std::ranges::any_of(r.triangles, faces_unsnapped)) {
+        const Capture window = faced_by_grid(in);
+        return is_mirrored ? cover_by_rule(referee, scene, window, by) : referee.run_stage(scene, stage, window);
+      }
+      if (!is_mirrored) break;
       return cover_by_rule(referee, scene, in, by);
     }
     case Stage::depth:

@@ -50,7 +50,7 @@ void give(const std::string& from, const Conventions& conventions, const Scene& 
   Records<double>& r = left.records;
   r.matrices = std::move(ours.matrices), r.lights = std::move(ours.lights), r.vertices = std::move(ours.vertices);
   r.lit = std::move(ours.lit);
-  left.derived.erase("vertex.n_eye");
+  for (const char* column : {"vertex.p_eye", "vertex.n_eye"}) left.derived.erase(column);
   for (const Varying v : kAllVaryings) r.varyings[v].vertices = std::move(ours.varyings[v].vertices);
   if (from != "window") return;
   for (const char* column : {"clip.cut", "window.snapped", "window.front", "window.corners", "window.width"}) {

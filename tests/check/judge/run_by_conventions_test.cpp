@@ -91,6 +91,29 @@ TEST_F(ByConventions, AScissorBoxStaysWhereItIs) {
   }
 }
 
+// A box that reaches beyond the frame ends with it.
+TEST_F(ByConventions, AScissorBoxMayReachBeyondTheFrame) {
+  add_square();
+  scene.draws[0].scissor = Scissor{3, 2, 100000, 100000};
+  EXPECT_EQ(std::ranges::count(covered_by(C::TieRule::left_bottom).planes.count.values(), 1u), 4);
+  EXPECT_EQ(std::ranges::count(covered_by(C::TieRule::right_top).planes.count.values(), 1u), 9);
+}
+
+// A triangle that the grid turns over is drawn where its unsnapped corners decide its face.
+TEST_F(ByConventions, TrianglesThatTheGridTurnsOverAreCoveredByEitherFace) {
+  add_square();
+  WindowTriangle<double>& t = candidate.records.triangles[0];
+  const auto fragments = [&] {
+    return std::ranges::count(covered_by(C::TieRule::left_bottom).records.covered, 0u, &Covered::triangle);
+  };
+  const auto all = fragments();
+  ASSERT_GT(all, 0);
+  t.front = !t.front;
+  EXPECT_EQ(fragments(), 0) << "faced as neither";
+  std::swap(t.v[1].p_win, t.v[2].p_win);
+  EXPECT_EQ(fragments(), all) << "faced as its unsnapped corners";
+}
+
 TEST_F(ByConventions, ARuleIsKnownWhereItsGridIs) {
   C c = by_rule(C::TieRule::left_top);
   EXPECT_TRUE(knows_ties(scene, c));

@@ -87,6 +87,22 @@ TEST(StrangersLacking, NormalsAreThoseThatFragmentsAreInterpolatedFrom) {
   EXPECT_TRUE(is_held(outcome(0)));
 }
 
+// A renderer that multiplies positions by one matrix knows no positions in eye space.
+TEST(StrangersLacking, EyeSpaceIsNoInputOfClipping) {
+  const auto outcome = [](const char* name, double off) {
+    return outcome_of(suite_scene(name), Stage::clip, [=](Capture& capture) {
+      capture.records.matrices.clear(), capture.records.lights.clear();
+      capture.derived = {"vertex.p_eye", "vertex.n_eye"};
+      for (Vertex<double>& v : capture.records.vertices) v.p_eye = {}, v.n_eye = {};
+      capture.records.polygons.vertices[0].p_clip.x += off;
+    });
+  };
+  for (const char* name : {"coverage/fan", "clip/crowd", "texture/floor_nearest"}) {
+    EXPECT_TRUE(is_held(outcome(name, 0))) << name;
+    EXPECT_EQ(outcome(name, 0.1), Outcome::different) << name;
+  }
+}
+
 TEST(StrangersLacking, FragmentsDepthsInFloatAreCodes) {
   const auto outcome = [](bool in_float) {
     return outcome_of(suite_scene("depth/grazing"), Stage::depth, [=](Capture& capture) {
