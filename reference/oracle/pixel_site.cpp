@@ -180,7 +180,11 @@ BoundedFour PixelSite::attribute(const std::array<BoundedFour, 3>& corners, bool
                of_denominator = std::hypot(n_sum.x, n_sum.y) / std::abs(sum),
                steepest = std::max(of_numerator, of_denominator) / near_end;
   const double shares = near_end * shares_error_in_float(scene, t, centre, pieces, steepest);
-  return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y + attribute_error(shares, most) +
+  // Slopes are those at the sample: where the plane of 1/w falls over from_place, the value changes faster.
+  const double falls = (std::abs(n_sum.x) * from_place.x + std::abs(n_sum.y) * from_place.y) / std::abs(sum);
+  const double faster = !snapped ? 1 : falls < 1 ? 1 / (1 - falls) : kInfinity;
+  const double by_place = largest(slope_x) * from_place.x + largest(slope_y) * from_place.y;
+  return {value, (by_place > 0 ? faster * by_place : 0) + attribute_error(shares, most) +
                      value_weight * (error + 2 * (w_error + error_of_cuts(scene, t, how)) * spread +
                                      32 * kFloatRounding * near_end * std::max(most, 1.0))};
 }

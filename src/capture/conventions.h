@@ -74,7 +74,8 @@ struct Conventions {
   Magnified magnified = Magnified::up_to_half;
   HalfWay half_way_level = HalfWay::down;
 
-  /// Names of the conventions that plumb learn could not find; their values are OpenGL's.
+  /// Names of the conventions that plumb learn could not find. Their values are OpenGL's, but that of depth_arithmetic,
+  /// where no depth is shown, is in_float_from_origin: the arithmetic of the largest errors.
   std::vector<std::string> open;
   /// Findings of plumb learn that no convention explains, a sentence each. mistaken() lists each of them as a mistake.
   std::vector<std::string> unexplained;

@@ -66,6 +66,14 @@ void leave_open(Prober& prober, const Probe& probe, const std::string& why) {
   }
 }
 
+// Arithmetic that no depth shows: attributes are interpolated in it, too, and the arithmetic of the largest errors fits.
+// (Where depths show that none fits, they are wrong.)
+void leave_arithmetic_wide(Learned& learned) {
+  const auto is_open = [](const LearnedRow& row) { return row.name == "depth_arithmetic" && row.value == "open"; };
+  if (std::ranges::any_of(learned.rows, is_open))
+    learned.conventions.depth_arithmetic = Conventions::DepthArithmetic::in_float_from_origin;
+}
+
 }  // namespace
 
 Learned learn(Renderer& renderer) {
@@ -89,6 +97,7 @@ Learned learn(Renderer& renderer) {
       prober.unexplained(line);
     }
   }
+  leave_arithmetic_wide(prober.learned);
   for (const char* words : {"polygons' cuts", "lines and points", "places of samples"}) {
     prober.learned.rows.push_back({words, "open", "pictures of triangles do not show it"});
   }

@@ -34,6 +34,10 @@ TEST(LearnDepths, InFloatAreFound) {
     EXPECT_TRUE(std::ranges::any_of(wrong.unexplained,
                                     [](const std::string& line) { return line.starts_with("depth_arithmetic: "); }));
   }
+  const C unseen =
+      learned(std::make_unique<Altered>(pipeline::make_pipeline(), [](Capture& c) { c.planes.depth = {}; }));
+  EXPECT_EQ(unseen.depth_arithmetic, in_float_from_origin) << "open, and as wide as can be";
+  EXPECT_NE(std::ranges::find(unseen.open, "depth_arithmetic"), unseen.open.end());
   const C none = learned_of(std::numeric_limits<double>::quiet_NaN(), 0);
   EXPECT_NE(std::ranges::find(none.open, "depth_arithmetic"), none.open.end());
 }
