@@ -176,18 +176,27 @@ FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending,
   }
 }
 
+namespace {
+
+// Range of a rounding to a code: [-below, above]; 0 where there is none.
+struct CodeRange {
+  double below, above;
+};
+CodeRange range_of_code(Conventions::Rounding rounding, bool rounds) {
+  if (!rounds) return {0, 0};
+  using enum Conventions::Rounding;
+  const double below = rounding == up ? 0 : rounding == nearest ? 0.5 : 1;
+  return {below, 1 - below};
+}
+
+}  // namespace
+
 void FrameColor::write(const Merge& state, const ColorInterval& color) {
   const Interval lowest{0, 0}, highest{unit_, unit_};
   const auto clamped = [&](Interval v) { return codes_ ? lesser(greater(v, lowest), highest) : v; };
-  // Range of a rounding to a code, where blending is in codes: [-below, above]; of a factor, and of a product.
-  const auto below_of = [&](Conventions::Rounding rounding) {
-    return !blends_codes_ || rounding == Conventions::Rounding::up ? 0
-           : rounding == Conventions::Rounding::nearest            ? 0.5
-                                                                   : 1;
-  };
-  const double below_factor = below_of(rounding_), above_factor = blends_codes_ ? 1 - below_factor : 0;
-  const double below = below_of(truncates_products_ ? Conventions::Rounding::down : rounding_),
-               above = blends_codes_ ? 1 - below : 0;
+  using enum Conventions::Rounding;
+  const auto [below_factor, above_factor] = range_of_code(rounding_, blends_codes_);
+  const auto [below, above] = range_of_code(truncates_products_ ? down : rounding_, blends_codes_);
   constexpr double kRoundings = 4;  // in float, of a factor, two products and their sum
   ColorInterval source, blended, result, constant = around(glm::dvec4(0), 0);
   std::array<double, 4> rounding{};  // of blending in float

@@ -2,6 +2,7 @@
 // renderer's capture to OpenGL's conventions.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "capture/capture.h"
@@ -48,6 +49,19 @@ inline bool has_codes_of_vertices(const FrameFormat& frame, const Conventions& c
 inline bool has_codes_of_fragments(const FrameFormat& frame, const Conventions& conventions) {
   return conventions.fragment_colors == Conventions::ColorNumbers::in_codes && color_scale(frame.color) > 0;
 }
+
+/// Range of the change that a rounding to codes makes to a value [codes]: half a code to either side, or one down or
+/// up.
+struct RoundingRange {
+  double least, most;
+};
+inline RoundingRange range_of(Conventions::Rounding rounding) {
+  return {-0.5 - middle_of(rounding), 0.5 - middle_of(rounding)};
+}
+
+/// Whether a value [codes] is a code, but for float's rounding of colours: 2^-16 code.
+inline constexpr double kFloatOfCode = 0x1p-16;
+inline bool is_code(double codes) { return std::abs(codes - std::nearbyint(codes)) <= kFloatOfCode; }
 
 /// Maps a renderer's capture to OpenGL's conventions: reverses the rows of planes and fragments where `rows` is
 /// from_top; maps planes.depth and records.depth to [0,1], near plane at 0; moves window positions by 1/2 - sample

@@ -77,11 +77,7 @@ void derive_positions(const DrawIndex& draws, Records<double>& r) {
 // where they are shown.
 void derive_normals(const DrawIndex& draws, Records<double>& r) {
   const std::vector<Vec4<double>>& carried = r.varyings[Varying::normal].vertices;
-  if (r.matrices.empty()) {
-    for (Vertex<double>& v : r.vertices) v.n_eye = Vec3<double>(std::numeric_limits<double>::quiet_NaN());
-    return;
-  }
-  if (r.matrices.size() != draws.ranges().size())
+  if (!r.matrices.empty() && r.matrices.size() != draws.ranges().size())
     throw std::invalid_argument("vertex.n_eye: left out, and matrices.* are not there for all draws");
   if (r.vertices.size() != draws.vertices())
     throw std::invalid_argument(
@@ -89,7 +85,8 @@ void derive_normals(const DrawIndex& draws, Records<double>& r) {
   for (std::size_t d = 0; d < draws.ranges().size(); ++d) {
     const Draw& draw = draws.scene().draws[d];
     const Mesh& mesh = draws.scene().meshes[draw.mesh];
-    const Mat3<double>& by = r.matrices[d].normal;
+    const Mat3<double> by =
+        r.matrices.empty() ? Mat3<double>(std::numeric_limits<double>::quiet_NaN()) : r.matrices[d].normal;
     const bool are_carried = carries(draws.scene(), draw, Varying::normal) && carried.size() == draws.vertices();
     for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
       if (are_carried) {
@@ -218,10 +215,14 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
 // 8 roundings of 2^-24 are 1/32 of a code.
 double code_roundings(double codes) { return codes < 0x1p20 ? 0x1p-21 : 0x1p-50; }
 
-// Codes of depths that were read from f32. Depths that are not all floats of codes stay: they are not rounded yet.
+// Codes of depths that were read from f32, and mapped to [0,1] since. Depths that are not all floats of codes stay:
+// they are not rounded yet.
 void find_codes(double codes, std::vector<double>& depths) {
   const auto code = [=](double z) { return std::nearbyint(z * codes) / codes; };
-  const auto is_float_of_code = [&](double z) { return static_cast<float>(code(z)) == static_cast<float>(z); };
+  const auto is_float_of_code = [&](double z) {
+    const auto is_float = [](double v, double of) { return static_cast<float>(v) == static_cast<float>(of); };
+    return is_float(code(z), z) || is_float(1 - code(z), 1 - z) || is_float(2 * code(z) - 1, 2 * z - 1);
+  };
   if (codes == 0 || !std::ranges::all_of(depths, is_float_of_code)) return;
   for (double& z : depths) z = code(z);
 }

@@ -24,8 +24,9 @@ namespace plumbline {
 /// not carry become 0.
 ///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
-/// n_eye where draws' matrices are lacking, of cut where some vertices are lacking, of a p_win that cannot be snapped,
-/// of a position beyond 2^22 pixels or a width beyond 64, of front and corners where a draw's polygons are not filled.
+/// n_eye where some draws' matrices are lacking, of cut where some vertices are lacking, of a p_win that cannot be
+/// snapped, of a position beyond 2^22 pixels or a width beyond 64, of front and corners where a draw's polygons are not
+/// filled.
 void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions = {});
 
 }  // namespace plumbline

@@ -137,8 +137,8 @@ double rounded(Conventions::Rounding rounding, double v);
 /// Middle of the interval that the rounding maps to 0: 0 (nearest), 1/2 (down) or -1/2 (up).
 double middle_of(Conventions::Rounding rounding);
 
-/// How window positions of an axis (0: x, 1: y) are snapped, y pointing up: where window_y is down, y that is rounded
-/// down is rounded up.
+/// Rounding of window positions along an axis (0: x; 1: y, which points up here): the declared one, with down and up
+/// exchanged for y where window_y is down.
 Conventions::Rounding subpixel_rounding(const Conventions& conventions, int axis);
 
 /// The sRGB encoding of a linear intensity, both in [0,1] (IEC 61966-2-1).

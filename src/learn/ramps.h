@@ -8,8 +8,8 @@
 
 namespace plumbline::learn {
 
-/// Distance in x of a ramp's beginning from its snapped position [pixels]: just under half a step of the grid (rounding to
-/// the nearest) or a whole step (rounding down or up).
+/// Distance in x of a ramp's beginning from its snapped position [pixels]: just under half a step of the grid (rounding
+/// to the nearest) or a whole step (down or up).
 inline double off_grid(const Conventions& c) {
   using enum Conventions::Rounding;
   const double share = c.subpixel_rounding == down ? 0.98 : c.subpixel_rounding == up ? -0.98 : 0.49;

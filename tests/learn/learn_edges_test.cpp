@@ -210,8 +210,8 @@ TEST(LearnTies, OfCornersInTheirOrderAreNoRule) {
   EXPECT_THAT(found.unexplained, testing::Contains(testing::HasSubstr("samples on a fan's edges")));
 }
 
-// Samples on an edge are its triangle's where the edge leads down or to the left; of clockwise triangles these edges are
-// the others.
+// Samples on an edge are its triangle's where the edge leads down or to the left. Of clockwise triangles, these are the
+// other edges.
 std::vector<glm::ivec2> by_direction_of_edges(const pipeline::WindowTriangle& triangle,
                                               const pipeline::PixelBounds& box) {
   pipeline::Edges edges = pipeline::edges_of(triangle);

@@ -119,9 +119,16 @@ bool is_whole_capture(const fs::path& folder) {
 // Message text of a program's words: one short line of UTF-8 without control characters.
 std::string shortened(std::string text) {
   constexpr std::size_t kMost = 200;
-  if (text.size() > kMost) text = text.substr(0, kMost) + "...";
   for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;
-  return as_utf8(text);
+  text = as_utf8(text);
+  for (std::size_t i = text.find('\xc2'); i != text.npos; i = text.find('\xc2', i + 1)) {
+    const bool is_control = static_cast<unsigned char>(text[i + 1]) < 0xa0;  // U+0080 to U+009F
+    if (is_control) text.replace(i, 2, "?");
+  }
+  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
+  std::size_t end = kMost;
+  while (text.size() > kMost && continues(end)) --end;
+  return text.size() > kMost ? text.substr(0, end) + "..." : text;
 }
 
 struct KeepOnly {

@@ -92,15 +92,6 @@ bool is_between_places(const WindowVertex<double>& v, const Conventions& convent
   return is_between(0, v.p_win.x) || is_between(1, v.p_win.y);
 }
 
-// Whether an edge that the two triangles share has a corner between places: they may have snapped it to different ones.
-bool share_open_corner(const WindowTriangle<double>& a, const WindowTriangle<double>& b,
-                       const Conventions& conventions) {
-  const auto is_of_b = [&](const WindowVertex<double>& v) {
-    return std::ranges::any_of(b.v, [&](const auto& w) { return Vec2<double>(v.p_win) == Vec2<double>(w.p_win); });
-  };
-  return std::ranges::any_of(a.v, [&](const auto& v) { return is_of_b(v) && is_between_places(v, conventions); });
-}
-
 }  // namespace
 
 bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, SnappedBy snapped_by) {
@@ -177,7 +168,6 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
     if (!shared) shared.emplace(candidate.triangles, by_one_grid);
     const std::optional<std::uint32_t> other = shared->beyond(c.triangle, p);
     if (!other || near(c.triangle, p, false) != 1 || near(*other, p, false) != 1) return true;
-    if (by_one_grid && share_open_corner(triangle, candidate.triangles[*other], conventions)) return true;
     return is_owned(is_covered(c, c.triangle), is_covered(c, *other), conventions.tie_rule);
   };
   return covered_except(candidate, reference, on_an_edge);

@@ -95,14 +95,18 @@ TexelRange legal_texels_in_float(const Textured& of, double lod_lo, double lod_h
   return out;
 }
 
-// Error of texels that are rounded to the frame's codes (Conventions::fragment_colors): up to half a code either way
-// (nearest), up to one (down, up); 0 where they are not, or are nothing but one code already.
-double code_error(const FrameFormat& frame, const Conventions& conventions, const TexelRange& range) {
-  if (!has_codes_of_fragments(frame, conventions)) return 0;
-  const double scale = color_scale(frame.color), middle = middle_of(conventions.color_rounding);
-  const Vec4<double> codes = scale * range.lo;
-  const bool is_code = range.lo == range.hi && codes == glm::round(codes);
-  return is_code && middle == 0 ? 0 : (0.5 + std::abs(middle)) / scale;
+// Adds what texels become that are rounded to the frame's codes (Conventions::fragment_colors), beyond [0,1] too: these
+// are clamped. Codes stay, but where they are rounded down or up: float may carry them over.
+void round_to_codes(const FrameFormat& frame, const Conventions& conventions, TexelRange& range) {
+  if (!has_codes_of_fragments(frame, conventions)) return;
+  const double scale = color_scale(frame.color);
+  const RoundingRange change = range_of(conventions.color_rounding);
+  for (int k = 0; k < 4; ++k) {
+    double &lo = range.lo[k], &hi = range.hi[k];
+    const bool stays = conventions.color_rounding == Conventions::Rounding::nearest && lo == hi && is_code(scale * lo);
+    if (!stays) lo += change.least / scale, hi += change.most / scale;
+    lo = std::min(lo, 1.0), hi = std::max(hi, 0.0);
+  }
 }
 
 // Largest distance of a texel's channel from a range.
@@ -139,8 +143,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
       const double lo = lacks_lod ? (*legal)[i].lambda_lo : a.lod, hi = lacks_lod ? (*legal)[i].lambda_hi : a.lod;
       range = lacks_lod ? (*legal)[i] : legal_texels(of, lo, hi, rules);
       if (!(distance_from(a.color, range) <= factor * unit)) range = legal_texels_in_float(of, lo, hi, rules);
-      const double codes = code_error(scene.frame, conventions, range);
-      range.lo -= codes, range.hi += codes;
+      round_to_codes(scene.frame, conventions, range);
     }
     for (int k = 0; k < 4; ++k) {
       const double off =

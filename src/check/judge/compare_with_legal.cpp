@@ -17,27 +17,32 @@ std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
   return fmt::format("{} ambiguous, {:.1f} predicted", ambiguous, legal.predicted_ambiguous);
 }
 
-// Cracks and double paint: a sample on edges that triangles share is in one of them, whatever the tie rule. None are
-// named where as many other samples differ: triangles are missing, or too many.
+// Cracks and double paint: a sample on edges that triangles share is in one of them, whatever the tie rule. Where as
+// many other samples differ, triangles may be missing, or drawn twice.
 std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
   std::size_t cracks = 0, twice = 0, others = 0;
   if (count.size() != legal.shared.size()) return "";
   for (std::size_t i = 0; i < count.size(); ++i) {
-    const bool is_less =
-        count.values()[i]<legal.certain.values()[i], is_more = count.values()[i]> legal.possible.values()[i],
-               is_shared = legal.shared.values()[i] != 0;
-    cracks += is_shared && is_less ? 1 : 0;
-    twice += is_shared && is_more ? 1 : 0;
-    others += !is_shared && (is_less || is_more) ? 1 : 0;
+    const std::uint32_t n = count.values()[i], low = legal.certain.values()[i], high = legal.possible.values()[i];
+    if (low <= n && n <= high) continue;
+    if (legal.shared.values()[i] == 0) {
+      ++others;
+    } else {
+      ++(n < low ? cracks : twice);
+    }
   }
-  if (cracks + twice <= others) return "";
+  if (cracks + twice == 0) return "";
+  if (others >= cracks + twice) {
+    return fmt::format("{} samples on edges that triangles share differ, and {} others: whole triangles?",
+                       cracks + twice, others);
+  }
   return fmt::format(
       "on edges that triangles share {} samples are in none of them (cracks), {} in too many (painted twice)", cracks,
       twice);
 }
 
-// Whether the oracle predicts how many pixels the grid leaves open. Of coarse grids, and of those rounded down or up,
-// not: corners on the frame's sides are open, however few the edges' pixels are.
+// Whether the oracle predicts how many pixels the grid leaves open. It does so for fine grids, rounded to the nearest.
+// On others, corners on the frame's sides leave pixels open that the edges' length does not count.
 bool predicts_open_pixels(const Conventions& conventions) {
   const int bits = conventions.subpixel_bits;
   const bool is_fine = bits == Conventions::kFloat || bits >= Conventions().subpixel_bits;

@@ -21,9 +21,8 @@ namespace {
 
 using C = Conventions;
 
-// ---- window: exact snaps to 1/256 pixel, and samples at centres. For another grid, the window is magnified from the
-// frame's corner, exact runs, and its records are scaled back; for another sample the window is moved
-// (capture/by_conventions.h).
+// ---- window: exact snaps to 1/256 pixel, and samples at centres. For another grid, exact runs in a window magnified
+// from the frame's corner; for another sample, in a window that is moved (capture/by_conventions.h).
 
 constexpr int kFinestBits = 16;       // for renderers without a grid
 constexpr double kFarthest = 0x1p30;  // of snapped positions [steps of the grid]
@@ -79,7 +78,7 @@ Capture window_on_grid(Renderer& referee, const Scene& scene, const Capture& in,
 // ---- coverage: exact's rule is left_bottom; another is that of a frame that is mirrored.
 
 struct Mirror {
-  bool x, y;
+  bool x = false, y = false;
 };
 
 Mirror mirror_of(C::TieRule rule) {
@@ -102,12 +101,32 @@ Scene mirrored(const Scene& scene, Mirror by) {
   return out;
 }
 
+bool is_turned_over(const WindowTriangle<double>& t) {
+  const double lies = twice_area(t, kUnsnapped), snapped = twice_area(t, kSnapped);
+  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0 ? snapped <= 0 : snapped >= 0);
+}
+
+// True of a triangle that the grid turns over, and that is faced (and was not culled) by its unsnapped corners.
+bool faces_unsnapped(const WindowTriangle<double>& t) {
+  return is_turned_over(t) && t.front == (twice_area(t, kUnsnapped) > 0);
+}
+
+// Faces triangles of faces_unsnapped() that have fragments as their snapped corners, whose inside exact covers; the
+// others, which an edge function by the unsnapped face may lose, cover nothing.
+void face_by_grid(const std::vector<Covered>& covered, std::vector<WindowTriangle<double>>& triangles) {
+  for (const Covered& c : covered) {
+    if (c.triangle < triangles.size() && faces_unsnapped(triangles[c.triangle]))
+      triangles[c.triangle].front = !triangles[c.triangle].front;
+  }
+}
+
 // Window records of triangles alone, or of lines and points alone: the records of the other kind become degenerate.
 Capture window_records(const Capture& in, bool of_triangles) {
   Capture out;
   out.width = in.width;
   out.height = in.height;
   out.records.triangles = in.records.triangles;
+  face_by_grid(in.records.covered, out.records.triangles);
   for (WindowTriangle<double>& t : out.records.triangles) {
     if ((t.corners == 3) == of_triangles) continue;
     t.corners = 3;
@@ -138,26 +157,6 @@ void mirror(Plane<T>& plane, Mirror by) {
 template <class T>
 void add(Plane<T>& sum, const Plane<T>& other) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum.values()[i] += other.values()[i];
-}
-
-bool is_turned_over(const WindowTriangle<double>& t) {
-  const double lies = twice_area(t, kUnsnapped), snapped = twice_area(t, kSnapped);
-  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0 ? snapped <= 0 : snapped >= 0);
-}
-
-// True of a triangle that the grid turns over, and that is faced (and was not culled) by its unsnapped corners.
-bool faces_unsnapped(const WindowTriangle<double>& t) {
-  return is_turned_over(t) && t.front == (twice_area(t, kUnsnapped) > 0);
-}
-
-// Window triangles alone; those of faces_unsnapped() face as their snapped corners, whose inside exact covers.
-Capture faced_by_grid(const Capture& in) {
-  Capture out;
-  out.width = in.width;
-  out.height = in.height;
-  out.records.triangles = in.records.triangles;
-  for (WindowTriangle<double>& t : out.records.triangles) t.front = t.front != faces_unsnapped(t);
-  return out;
 }
 
 Capture cover_by_rule(Renderer& referee, const Scene& scene, const Capture& in, Mirror by) {
@@ -270,15 +269,18 @@ Capture test_in_float(Renderer& referee, const Scene& scene, const Capture& in) 
   return out;
 }
 
-// Number of the fragments drawn, and of the winners, that differ. Records and planes of other sizes are not compared.
+// Number of fragments drawn, winners and stencil values that differ; those of other sizes are not compared.
 std::size_t apart(const Capture& a, const Capture& b) {
-  std::size_t out = 0;
-  const auto &drawn = a.records.drawn, &others = b.records.drawn;
-  for (std::size_t i = 0; i < drawn.size() && drawn.size() == others.size(); ++i)
-    out += drawn[i].drawn != others[i].drawn ? 1 : 0;
-  const auto &id = a.planes.id.values(), &other_id = b.planes.id.values();
-  for (std::size_t i = 0; i < id.size() && id.size() == other_id.size(); ++i) out += id[i] != other_id[i] ? 1 : 0;
-  return out;
+  const auto differing = [](const auto& mine, const auto& theirs, auto of) {
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < mine.size() && mine.size() == theirs.size(); ++i) out += of(mine[i]) != of(theirs[i]);
+    return out;
+  };
+  const auto plane = [&](auto of) {
+    return differing((a.planes.*of).values(), (b.planes.*of).values(), [](auto v) { return v; });
+  };
+  return differing(a.records.drawn, b.records.drawn, [](const Drawn& d) { return d.drawn; }) + plane(&Planes::id) +
+         plane(&Planes::stencil);
 }
 
 // Fragments' tests by the declared alpha test. Either: by codes or by floats, whichever fits `in` better.
@@ -296,6 +298,12 @@ Capture test_alpha(Renderer& referee, const Scene& scene, const Capture& in, C::
 }  // namespace
 
 Capture merge_as_declared(Renderer& referee, const Scene& scene, const Capture& in, const C& conventions) {
+  const bool shows_winners = !in.planes.id.empty() && colors_replace(scene) && depths_replace(scene);
+  if (in.records.drawn.empty() && !in.records.covered.empty() && !shows_winners) {
+    Capture tested = in;
+    tested.records.drawn = run_by_conventions(referee, scene, Stage::visibility, in, conventions).records.drawn;
+    if (!tested.records.drawn.empty()) return merge_as_declared(referee, scene, tested, conventions);
+  }
   Capture out = referee.run_stage(scene, Stage::merge, in);
   const Records<double>& r = in.records;
   const bool is_read_again = scene.frame.color != ColorFormat::rgba32f && !colors_replace(scene);
@@ -366,13 +374,8 @@ Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, c
       return window_on_grid(referee, scene, in, conventions);
     }
     case Stage::coverage: {
-      const Mirror by = mirror_of(conventions.tie_rule);
-      const bool is_mirrored = knows_ties(scene, conventions) && (by.x || by.y);
-      if (std::ranges::any_of(r.triangles, faces_unsnapped)) {
-        const Capture window = faced_by_grid(in);
-        return is_mirrored ? cover_by_rule(referee, scene, window, by) : referee.run_stage(scene, stage, window);
-      }
-      if (!is_mirrored) break;
+      const Mirror by = knows_ties(scene, conventions) ? mirror_of(conventions.tie_rule) : Mirror{};
+      if (!by.x && !by.y && std::ranges::none_of(r.triangles, faces_unsnapped)) break;
       return cover_by_rule(referee, scene, in, by);
     }
     case Stage::depth:

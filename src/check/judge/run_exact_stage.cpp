@@ -101,6 +101,7 @@ Measurement with_varyings(const SceneJudgement& c, Stage stage, Measurement colo
 // Closes open pixels whose winner is not legal by the oracle; all open pixels, where the oracle gave no answers.
 void close_illegal(const SceneJudgement& c, Plane<std::uint8_t>& open) {
   const Planes& mine = c.candidate.planes;
+  if (mine.id.empty()) return;
   const bool known = mine.id.size() == open.size() && c.legal.certain.size() == open.size() && !c.legal.empty();
   for (int y = 0; y < open.height(); ++y) {
     for (int x = 0; x < open.width(); ++x) {
@@ -176,6 +177,8 @@ void compare_coverage_stage(const SceneJudgement& c, const Capture& made, const 
     return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample, c.scene.frame.height));
   }
   Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
+  if (c.candidate.planes.id_sum.empty())
+    return c.add(name, stage, std::move(planes), nullptr, "its counts alone: it shows no planes.id_sum");
   if (lacks_fragment_records(c.candidate))
     return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
   c.add(name, stage, worse(std::move(planes), compare_open_covered(c.candidate, theirs, c.open_coverage())));

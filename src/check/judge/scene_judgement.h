@@ -56,6 +56,8 @@ struct SceneJudgement {
   }
   /// Note of a row that compares winners.
   std::string note_of_winners() const {
+    if (candidate.planes.id.empty() && !candidate.planes.stencil.empty())
+      return "its stencil values alone: it shows no planes.id";
     return stencils() == Stencils::compared ? "" : "its winners alone: it shows no planes.stencil";
   }
   /// Appends a copy of the judge's row of stage `of` as the row of `stage`: the same plane shows both.

@@ -182,13 +182,12 @@ class Block {
   std::string legal_color(const LegalAnswer& a) const {
     const double scale = color_scale(scene_.frame.color);
     if (scale > 0 ? !(a.color_bound < 1) : !std::isfinite(a.color_bound)) return "any colour";
-    return fmt::format("color {}{} before rounding", color_text(scene_.frame, a.color),
-                       scale > 0 ? fmt::format(", {:.2g} codes more or less", a.color_bound * scale)
-                                 : fmt::format(", {:.2g} more or less", a.color_bound));
+    return fmt::format("colour {} before rounding, within {:.2g}{}", color_text(scene_.frame, a.color),
+                       scale > 0 ? a.color_bound * scale : a.color_bound, scale > 0 ? " codes" : "");
   }
   std::string between(const std::pair<glm::vec4, glm::vec4>& colors) const {
-    if (!std::isfinite(colors.first.x)) return "any colour: which fragments make it is open";
-    return fmt::format("color {} to {} before rounding", color_text(scene_.frame, colors.first),
+    if (!std::isfinite(colors.first.x)) return "any colour: it is open which fragments make it";
+    return fmt::format("colour {} to {} before rounding", color_text(scene_.frame, colors.first),
                        color_text(scene_.frame, colors.second));
   }
   static std::optional<std::string> four(const std::optional<glm::dvec4>& v) {

@@ -1,6 +1,7 @@
 // Captures of others that lack records or planes which a row can do without.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -41,6 +42,24 @@ TEST(StrangersLacking, DrawnIsTestedAnewWhereWinnersDoNotTellTheFrame) {
     EXPECT_TRUE(is_held(outcome(0))) << name;
     EXPECT_EQ(outcome(0.1f), Outcome::different) << name;
   }
+}
+
+// Tests by floats, and products that are rounded down, of a renderer that shows neither what is drawn nor how.
+TEST(StrangersLacking, DrawnIsTestedAnewAsDeclared) {
+  Conventions truncated;
+  truncated.blending = Conventions::Blending::in_codes_down;
+  const auto outcome = [&](float codes) {
+    return outcome_of(
+        suite_scene("blend/halves"), Stage::merge,
+        [=](Capture& capture) {
+          capture.records.drawn.clear();
+          for (glm::vec4& color : capture.planes.color.values()) color.g = std::max(color.g - codes / 255, 0.0f);
+        },
+        truncated);
+  };
+  EXPECT_TRUE(is_held(outcome(0)));
+  EXPECT_TRUE(is_held(outcome(1))) << "truncated";
+  EXPECT_EQ(outcome(9), Outcome::different);
 }
 
 TEST(StrangersLacking, CountsAloneAreCompared) {

@@ -66,6 +66,20 @@ TEST(StrangersRecords, InterpolatedColorsMayBeCodes) {
   EXPECT_FALSE(drawn([](Vec4<double>& color) { color.x = NAN; }, in_codes()));
 }
 
+// Colours of lines that are extrapolated leave [0,1], where codes end.
+TEST(StrangersRecords, InterpolatedColorsAreClampedToCodes) {
+  const auto drawn = [](double most) {
+    return holds("lines/steep_w", Stage::attributes, in_codes(), [=](Capture& capture) {
+      for (Attributes<double>& a : capture.records.attributes) {
+        rounded(kNearest, 0)(a.color);
+        a.color = glm::clamp(a.color, Vec4<double>(0), Vec4<double>(most));
+      }
+    });
+  };
+  EXPECT_TRUE(drawn(1));
+  EXPECT_FALSE(drawn(0.9));
+}
+
 // Colours of vertices become codes after the records of corners, or before.
 TEST(StrangersRecords, InterpolatedColorsMayBeBetweenCodes) {
   C vertices;
@@ -98,6 +112,8 @@ TEST(StrangersRecords, TexelsMayBeCodes) {
   EXPECT_FALSE(drawn("texture/floor_modulated", -1.01, in_codes()));
   EXPECT_TRUE(drawn("texture/board_nearest", 0, in_codes()));
   EXPECT_FALSE(drawn("texture/board_nearest", 0.1, in_codes())) << "texels that are codes are not rounded";
+  EXPECT_TRUE(drawn("texture/board_nearest", -1, in_codes(C::Rounding::down))) << "a code less float's error";
+  EXPECT_FALSE(drawn("texture/board_nearest", 1, in_codes(C::Rounding::down)));
 }
 
 TEST(StrangersRecords, ShadedColorsMayBeCodes) {
@@ -112,6 +128,9 @@ TEST(StrangersRecords, ShadedColorsMayBeCodes) {
   EXPECT_FALSE(drawn("texture/floor_modulated", 2, in_codes()));
   EXPECT_FALSE(drawn("texture/floor_modulated", -2, in_codes()));
   EXPECT_FALSE(drawn("blend/halves", 1.01, in_codes())) << "rounded once";
+  EXPECT_FALSE(holds("fog/exp", Stage::shade, in_codes(), [](Capture& capture) {
+    for (Shaded<double>& shaded : capture.records.shaded) shaded.color.a -= 1.1 / 255;
+  })) << "fog leaves alpha as it is";
 }
 
 TEST(StrangersRecords, ColorsAloneMayBeAffine) {
