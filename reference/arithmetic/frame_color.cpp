@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "capture/by_conventions.h"
 #include "reference/arithmetic/bounded.h"
 
 namespace plumbline::math {
@@ -176,37 +177,24 @@ FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending,
   }
 }
 
-namespace {
-
-// Range of a rounding to a code: [-below, above]; 0 where there is none.
-struct CodeRange {
-  double below, above;
-};
-CodeRange range_of_code(Conventions::Rounding rounding, bool rounds) {
-  if (!rounds) return {0, 0};
-  using enum Conventions::Rounding;
-  const double below = rounding == up ? 0 : rounding == nearest ? 0.5 : 1;
-  return {below, 1 - below};
-}
-
-}  // namespace
-
 void FrameColor::write(const Merge& state, const ColorInterval& color) {
   const Interval lowest{0, 0}, highest{unit_, unit_};
   const auto clamped = [&](Interval v) { return codes_ ? lesser(greater(v, lowest), highest) : v; };
-  using enum Conventions::Rounding;
-  const auto [below_factor, above_factor] = range_of_code(rounding_, blends_codes_);
-  const auto [below, above] = range_of_code(truncates_products_ ? down : rounding_, blends_codes_);
+  const auto range = [&](Conventions::Rounding of) { return blends_codes_ ? range_of(of) : RoundingRange{0, 0}; };
+  const RoundingRange of_factor = range(rounding_),
+                      of_product = range(truncates_products_ ? Conventions::Rounding::down : rounding_);
   constexpr double kRoundings = 4;  // in float, of a factor, two products and their sum
   ColorInterval source, blended, result, constant = around(glm::dvec4(0), 0);
   std::array<double, 4> rounding{};  // of blending in float
   for (std::size_t c = 0; c < 4; ++c) source[c] = clamped({color[c].lo * unit_, color[c].hi * unit_});
-  for (std::size_t c = 0; c < 4; ++c) blended[c] = clamped({source[c].lo - below_factor, source[c].hi + above_factor});
+  for (std::size_t c = 0; c < 4; ++c)
+    blended[c] = clamped({source[c].lo + of_factor.least, source[c].hi + of_factor.most});
   for (std::size_t c = 0; state.blend && c < 4; ++c) {
     const double v = static_cast<double>(state.blend->color[static_cast<int>(c)]) * unit_;
     const double slack = unit_ * 0x1p-22;  // of v, scaled in float
-    constant[c] = blends_codes_ ? clamped({std::ceil(v - below_factor - slack), std::floor(v + above_factor + slack)})
-                                : clamped({v, v});
+    constant[c] = blends_codes_
+                      ? clamped({std::ceil(v + of_factor.least - slack), std::floor(v + of_factor.most + slack)})
+                      : clamped({v, v});
   }
   for (std::size_t c = 0; c < 4; ++c) {
     if (!state.blend || state.logic_op) {
@@ -218,6 +206,7 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
     const bool multiplies = term.equation != BlendEquation::min && term.equation != BlendEquation::max;
     const Interval sum = blender(term, c);
     const bool subtracts = multiplies && term.equation != BlendEquation::add;
+    const double below = -of_product.least, above = of_product.most;
     const double less = !multiplies ? 0 : below + (subtracts ? above : below),
                  more = !multiplies ? 0 : above + (subtracts ? below : above);
     result[c] = clamped({sum.lo - less, sum.hi + more});

@@ -78,10 +78,8 @@ bool are_sums_of(const Records<double>& records, const Planes& planes) {
          (planes.id_sum.empty() || sums.id_sum.values() == planes.id_sum.values());
 }
 
-namespace {
-
-// Whether a corner lies between two places of the declared grid.
-bool is_between_places(const WindowVertex<double>& v, const Conventions& conventions) {
+bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, SnappedBy snapped_by) {
+  if (snapped_by == SnappedBy::renderer) return false;
   const bool is_to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
   const double a_pixel = std::exp2(conventions.subpixel_bits);  // [steps]
   const auto is_between = [&](int axis, double p_win) {
@@ -89,14 +87,7 @@ bool is_between_places(const WindowVertex<double>& v, const Conventions& convent
     if (is_to_nearest) return std::abs(middle - std::nearbyint(middle)) <= 4 * u * std::max(std::abs(middle), a_pixel);
     return on_grid(conventions, axis, p_win - kOfFixedPoint) != on_grid(conventions, axis, p_win + kOfFixedPoint);
   };
-  return is_between(0, v.p_win.x) || is_between(1, v.p_win.y);
-}
-
-}  // namespace
-
-bool has_corner_between_places(const WindowTriangle<double>& t, const Conventions& conventions, SnappedBy snapped_by) {
-  if (snapped_by == SnappedBy::renderer) return false;
-  return std::ranges::any_of(t.v, [&](const auto& v) { return is_between_places(v, conventions); });
+  return std::ranges::any_of(t.v, [&](const auto& v) { return is_between(0, v.p_win.x) || is_between(1, v.p_win.y); });
 }
 
 namespace {

@@ -74,6 +74,20 @@ TEST_F(LineOrPointWinners, StencilValuesAreThoseOfOpenTests) {
   EXPECT_TRUE(passes(against(0.8, 1, 1)));
 }
 
+// The same line, drawn twice, has one depth: less leaves the first, whatever a depth may be off.
+TEST_F(LineOrPointWinners, OfALineDrawnAgainAreNotOpen) {
+  const auto drawn_again = [&](double right, std::int32_t winner) {
+    Capture c = drawn({line_of({2.5, 1.5}, {6.5, 3.5}, 1), line_of({2.5, 1.5}, {right, 3.5}, 9)}, {{{4, 3}}, {{4, 3}}});
+    c.records.depth = {0.55, 0.55};
+    c.planes.id(4, 3) = winner;
+    return c;
+  };
+  for (const double right : {6.5, 6.25}) {
+    const Measurement m = compare_line_or_point_winners(scene, drawn_again(right, 9), drawn_again(right, 1));
+    EXPECT_EQ(passes(m), right != 6.5) << "another line's depth may be less";
+  }
+}
+
 TEST_F(LineOrPointWinners, AlphasThatFailAreNotDrawn) {
   scene.draws[0].alpha_test = AlphaTest{.func = CompareFunc::greater, .reference = 0.5f};
   Capture mine = with(0.5, 1), theirs = with(0.5, 9);
