@@ -16,6 +16,10 @@
 // that stencil values count although their depth test never passes. Where a triangle has no reliable plane, the pixel
 // is ambiguous. These lines, too, may run through a row of centres, and again the larger of the area and the number of
 // centres in the bands is taken.
+//
+// Sides of the frame. A side that cuts a triangle is no edge of it, but floats may displace the cut by more than the
+// half pixel between the side and the next samples, where corners are far outside the frame and near the eye. Samples
+// that are open by such a cut alone are counted as they are.
 #include "reference/oracle/ambiguity.h"
 
 #include <algorithm>

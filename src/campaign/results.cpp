@@ -143,8 +143,11 @@ std::string text_of(const Results& results) {
   out += fmt::format("hold: {}\n", results.held);
   if (!results.unable.empty())
     out += fmt::format("nothing could be judged: {}\n{}", unable_scenes(results), unable_lines(results.unable));
-  if (2 * unable_scenes(results) > results.scenes() && !results.judged.contains(Generator::plain))
-    out += "most scenes ask for more than is drawn; --generator plain writes opaque triangles alone\n";
+  if (2 * unable_scenes(results) > results.scenes() && !results.judged.contains(Generator::flat)) {
+    if (!results.judged.contains(Generator::plain))
+      out += "most scenes ask for more than is drawn; --generator plain writes opaque triangles alone\n";
+    out += "--generator flat writes triangles of one colour a draw, without a depth test\n";
+  }
   out += states_text(results);
   if (!results.found.empty())
     out += fmt::format("findings: scenes, signature, first scenes\n{}", lines_of(results.found));

@@ -63,7 +63,8 @@ Range range_of(const std::string& text) {
 std::vector<campaign::Generator> generators_of(const std::string& option) {
   std::vector<campaign::Generator> out;
   for (const campaign::Generator of : campaign::kGenerators) {
-    const bool is_of_both = option == "both" && of != campaign::Generator::plain;
+    const bool is_of_both =
+        option == "both" && (of == campaign::Generator::ordinary || of == campaign::Generator::hard);
     if (is_of_both || option == name_of(of)) out.push_back(of);
   }
   return out;

@@ -50,7 +50,7 @@ int check(const CheckOptions& options);
 struct CampaignOptions {
   std::string folder;
   std::string seeds;               ///< FIRST..LAST, of each generator; empty: report what the journals hold
-  std::string generator = "both";  ///< or ordinary, hard, plain
+  std::string generator = "both";  ///< or ordinary, hard, plain, flat
   std::size_t round = 1;           ///< from 2 on, scenes are changed that reached something new in the round before
   bool judge_only = false;         ///< findings are neither shrunk nor reported
   bool write = false;              ///< the scenes' files, and nothing else

@@ -27,6 +27,7 @@ TEST(SceneText, IsTheSameForTheSameSeed) {
   EXPECT_EQ(hash_of_scenes(Generator::ordinary), 10614548038268845290u);
   EXPECT_EQ(hash_of_scenes(Generator::hard), 18330438398356533061u);
   EXPECT_EQ(hash_of_scenes(Generator::plain), 7565363859689327236u);
+  EXPECT_EQ(hash_of_scenes(Generator::flat), 7286729620011264260u);
 }
 
 TEST(SceneText, OfTwoSeedsIsAFewChoicesFromTheFirst) {

@@ -58,6 +58,7 @@ TEST_F(ScenesHold, OrdinaryOnesAreRead) {
 TEST_F(ScenesHold, OrdinaryOnesAgainstAllReferences) { expect_hold(Generator::ordinary, one_of(200)); }
 TEST_F(ScenesHold, HardOnesAgainstAllReferences) { expect_hold(Generator::hard, one_of(133)); }
 TEST_F(ScenesHold, PlainOnesAgainstAllReferences) { expect_hold(Generator::plain, one_of(400)); }
+TEST_F(ScenesHold, FlatOnesAgainstAllReferences) { expect_hold(Generator::flat, one_of(400)); }
 
 // The rows that plumb leaves of each scene, as text, for what its arguments name.
 std::vector<std::string> rows(const std::vector<fs::path>& scenes, const fs::path& into, const std::string& arguments) {

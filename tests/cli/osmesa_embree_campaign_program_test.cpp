@@ -14,6 +14,7 @@ TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
   EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n      ")) << run.text;
   EXPECT_TRUE(run.says("states: 0 of ")) << "of scenes that were not drawn: " << run.text;
   EXPECT_TRUE(run.says("most scenes ask for more than is drawn; --generator plain ")) << run.text;
+  EXPECT_TRUE(run.says("\n--generator flat writes triangles of one colour a draw")) << run.text;
 }
 
 // The C renderer draws opaque triangles by OpenGL's rules, and no texture, fog or line.
@@ -24,6 +25,9 @@ TEST_F(Campaign, OfAProgramThatDrawsTrianglesAloneHasScenesForIt) {
   EXPECT_TRUE(run.says("plain scenes: 20\nhold: 14\nnothing could be judged: 6\n      4  a frame in which nothing is "))
       << run.text;
   EXPECT_FALSE(run.says("--generator plain ")) << run.text;
+  const Outcome flat = campaign("f", "--seeds 1..20 --generator flat --against exact,embree" + program);
+  EXPECT_EQ(flat.code, 0) << flat.text;
+  EXPECT_TRUE(flat.says("flat scenes: 20\n")) << flat.text;
 }
 
 TEST_F(Campaign, OfAProgramNamesMistakesAmongItsConventions) {

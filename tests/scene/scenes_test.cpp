@@ -39,5 +39,25 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
   EXPECT_EQ(states.size(), 4u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 3 + 3 + 8 + 3);
 }
 
+// The kit's README promises what these scenes ask for.
+TEST(Scenes, FirstTrianglesAskForOneColourADrawAlone) {
+  std::size_t count = 0;
+  for (const std::filesystem::path& file : suite_files()) {
+    if (file.parent_path().stem() != "first_triangles") continue;
+    const Scene scene = load_scene(file);
+    ++count;
+    EXPECT_EQ(scene.frame.color, ColorFormat::rgba8) << file;
+    EXPECT_TRUE(scene.textures.empty()) << file;
+    for (const Mesh& mesh : scene.meshes) EXPECT_TRUE(mesh.colors.empty()) << file;
+    for (const Draw& draw : scene.draws) {
+      EXPECT_FALSE(draw.lit) << file;
+      EXPECT_EQ(draw.depth_func, DepthFunc::always) << file;
+      EXPECT_FALSE(draw.fog || draw.alpha_test || draw.stencil || draw.scissor) << file;
+      EXPECT_EQ(draw.material.diffuse.a, 1) << file;
+    }
+  }
+  EXPECT_EQ(count, 22u);
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -43,7 +43,8 @@ struct Builder {
   bool has_stencil = false;        ///< of the frame
   bool has_line_or_point = false;  ///< lines, points, or polygons drawn as such
   std::string_view color_format = "rgba8";
-  bool opaque = false;  ///< alphas are 1
+  bool opaque = false;     ///< alphas are 1
+  bool one_color = false;  ///< meshes have no colours of their own
   Object textures;
   std::vector<std::string> texture_names;
   std::vector<bool> decal_fits;  ///< of each: decal is defined for its format

@@ -17,4 +17,8 @@ std::string hard_scene(campaign::Choices choices, const std::string& description
 /// the colours of their corners or in one colour, unlit, without textures, by the depth test `less`, none culled.
 std::string plain_scene(campaign::Choices choices, const std::string& description);
 
+/// Text of a plain scene whose draws have one colour each and pass every depth test: for a renderer that has no depth
+/// buffer yet, and interpolates nothing.
+std::string flat_scene(campaign::Choices choices, const std::string& description);
+
 }  // namespace plumbline::hard

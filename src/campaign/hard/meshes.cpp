@@ -50,7 +50,7 @@ HardMesh written_out(Builder& b) {
   Object out("positions", points_text(of.positions));
   if (!alone) out.put("indices", json_array(indices));
   if (!alone && c.chance(50)) out.put("normals", normals_text(b, n));
-  if (c.chance(60)) out.put("colors", rgba_list(b, n));
+  if (!b.one_color && c.chance(60)) out.put("colors", rgba_list(b, n));
   const bool textured = c.chance(40);
   if (textured) out.put("texcoords", texcoords_text(b, n));
   return {Object(alone ? "triangle" : "triangles", out.text()).text(), textured};
@@ -69,7 +69,7 @@ HardMesh quad(Builder& b) {
     out.put("positions",
             points_text({b.view.at(x0, y0, d), b.view.at(x1, y0, d), b.view.at(x1, y1, d), b.view.at(x0, y1, d)}));
   }
-  if (c.chance(40)) out.put("colors", rgba_list(b, 4));
+  if (!b.one_color && c.chance(40)) out.put("colors", rgba_list(b, 4));
   if (c.chance(40)) out.put("texcoords", texcoords_text(b, 4));
   return {Object("quad", out.text()).text(), true, false, unit};
 }
@@ -131,7 +131,7 @@ HardMesh mesh(Builder& b) {
 
 HardMesh triangles_mesh(Builder& b) {
   switch (b.choose.count(0, 7)) {
-    case 0: return made(b);
+    case 0: return b.one_color ? quad(b) : made(b);  // a soup has colours
     case 1: return quad(b);
     default: return written_out(b);
   }
