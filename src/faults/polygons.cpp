@@ -196,6 +196,36 @@ void z_not_divided(const DrawInput& input, const Polygon& polygon, Triangles& ou
   pipeline::to_window(input, wrong, out);
 }
 
+// Each corner's window z is 1/w: proportional to the nearness, not to the depth.
+void z_of_inv_w(const DrawInput& input, const Polygon& polygon, Triangles& out) {
+  const std::size_t first = out.size();
+  pipeline::to_window(input, polygon, out);
+  for (ShadedTriangle& t : std::span(out).subspan(first)) {
+    for (pipeline::WindowVertex& v : t.v) v.p_win.z = v.inv_w;
+  }
+}
+
+// Facing by x and y before the division by w. Where the view volume's axis is its middle, it is the sign of z of the
+// face's normal in eye space: right without perspective alone.
+void culled_by_eye_normal(const DrawInput& input, const Polygon& polygon, Triangles& out) {
+  if (polygon.corners.size() < 3) return pipeline::to_window(input, polygon, out);
+  float area = 0;
+  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+    const Vec4<float>&a = polygon.corners[i].p_clip, &b = polygon.corners[(i + 1) % polygon.corners.size()].p_clip;
+    area += a.x * b.y - a.y * b.x;
+  }
+  const bool is_front = area > 0;
+  const Cull cull = input.draw->cull;
+  if (cull != Cull::none && is_front == (cull == Cull::front)) return;
+  Draw draw = *input.draw;
+  draw.cull = Cull::none;
+  DrawInput unculled = input;
+  unculled.draw = &draw;
+  const std::size_t first = out.size();
+  pipeline::to_window(unculled, polygon, out);
+  for (ShadedTriangle& t : std::span(out).subspan(first)) t.front = is_front;
+}
+
 void facing_turned(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   const std::size_t first = out.size();
   pipeline::to_window(input, polygon, out);
@@ -264,6 +294,10 @@ constexpr std::array kPolygons = {
     stage_fault("window.facing_turned", "triangles whose corners are clockwise are front faces",
                 put<&Stages::window, facing_turned>),
     stage_fault("window.z_not_divided", "window z is not divided by w", put<&Stages::window, z_not_divided>),
+    stage_fault("window.z_of_inv_w", "window z is 1/w", put<&Stages::window, z_of_inv_w>),
+    stage_fault("window.culled_by_eye_normal",
+                "faces are culled by the z of their normal in eye space, not by the side that is seen",
+                put<&Stages::window, culled_by_eye_normal>),
     stage_fault("window.diagonals_drawn", "the edges of a cut triangle's fan are drawn, not those of its polygon",
                 put<&Stages::window, diagonals_drawn>),
     stage_fault("window.edges_of_one_corner", "an edge begins at the corner that it ends in",

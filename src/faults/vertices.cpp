@@ -110,6 +110,14 @@ constexpr auto kViewportByWidthLessOne = [](const Scene&, Matrices<float>& m) {
   m.win_scale.y -= 0.5f, m.win_translate.y -= 0.5f;
 };
 
+constexpr auto kViewportWidthLessOne = [](const Scene&, Matrices<float>& m) {
+  m.win_scale.x -= 0.5f, m.win_translate.x -= 0.5f;
+};
+
+constexpr auto kViewportHeightLessOne = [](const Scene&, Matrices<float>& m) {
+  m.win_scale.y -= 0.5f, m.win_translate.y -= 0.5f;
+};
+
 constexpr auto kViewportLessOneFromTop = [](const Scene&, Matrices<float>& m) {
   m.win_scale.x -= 0.5f, m.win_translate.x -= 0.5f;
   m.win_scale.y -= 0.5f, m.win_translate.y += 0.5f;
@@ -177,6 +185,10 @@ constexpr std::array kVertices = {
     stage_fault("matrices.viewport_by_width_less_one",
                 "the viewport is a pixel less wide and high: its left lower corner is right",
                 put<&Stages::matrices, matrices_changed<kViewportByWidthLessOne>>),
+    stage_fault("matrices.viewport_width_less_one", "the viewport is a pixel less wide: its left side is right",
+                put<&Stages::matrices, matrices_changed<kViewportWidthLessOne>>),
+    stage_fault("matrices.viewport_height_less_one", "the viewport is a pixel less high: its lower side is right",
+                put<&Stages::matrices, matrices_changed<kViewportHeightLessOne>>),
     stage_fault("matrices.viewport_less_one_from_top",
                 "the viewport is a pixel less wide and high: its left upper corner is right",
                 put<&Stages::matrices, matrices_changed<kViewportLessOneFromTop>>),

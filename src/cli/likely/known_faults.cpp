@@ -168,6 +168,35 @@ KnownFault alpha_not_written(const FrameFormat& frame) {
           .of_frame = of_pixels([cleared](glm::vec4& color, double*) { color.a = cleared; })};
 }
 
+KnownFault codes_for_numbers() {
+  return {.stage = "file",
+          .name = "file.codes_for_numbers",
+          .says = "colours are codes, from 0 to 255, where numbers from 0 to 1 are expected",
+          .of_frame = of_pixels([](glm::vec4& color, double*) { color *= 255.0f; })};
+}
+
+// Whether a frame of 8 bits holds colours beyond 1 that may be codes. (A float frame may hold any.)
+bool may_hold_codes(const FrameFormat& frame, const Plane<glm::vec4>& color) {
+  constexpr float kLeastCode = 15;
+  const auto is_code = [](const glm::vec4& c) { return std::max({c.r, c.g, c.b}) >= kLeastCode; };
+  return frame.color == ColorFormat::rgba8 && std::ranges::any_of(color.values(), is_code);
+}
+
+// Depths that are 1/w, as the conventions' depth range turns them.
+KnownFault depth_of_inv_w(Conventions::DepthRange range) {
+  KnownFault out{.stage = "depth",
+                 .name = "depth.of_inv_w",
+                 .says = "depths are 1/w: the largest is kept, and 0 is cleared to",
+                 .of_scene = keep_farthest,
+                 .of_stages = {"window.z_of_inv_w"}};
+  if (range == Conventions::DepthRange::one_to_zero) {
+    out.of_frame = of_pixels([](glm::vec4&, double* z) {
+      if (z != nullptr) *z = 1 - *z;
+    });
+  }
+  return out;
+}
+
 // Faults that change the finished frame, or draw a changed scene.
 std::vector<KnownFault> of_pictures(const FrameFormat& frame) {
   std::vector<KnownFault> out;
@@ -239,6 +268,8 @@ std::vector<KnownFault> picture_faults() {
   const FrameFormat square;
   std::vector<KnownFault> all = of_pictures(square), out;
   all.push_back(alpha_not_written(square));
+  all.push_back(codes_for_numbers());
+  all.push_back(depth_of_inv_w(Conventions::DepthRange::zero_to_one));
   for (const FaultInfo& fault : fault_infos()) {
     if (is_among(fault.name, kTruncations)) all.push_back(not_as_declared(fault));
   }
@@ -260,7 +291,9 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
   for (const FaultInfo& fault : fault_infos()) {  // a wrong declaration comes before faults that draw the same frame
     if (is_among(fault.name, kTruncations) && is_among(fault.name, declared)) out.push_back(not_as_declared(fault));
   }
+  if (may_hold_codes(scene.frame, given.color)) out.push_back(codes_for_numbers());
   std::ranges::move(of_pictures(scene.frame), std::back_inserter(out));
+  out.push_back(depth_of_inv_w(given.conventions.depth_range));
   std::ranges::move(misread_states(scene), std::back_inserter(out));
   for (const FaultInfo& fault : fault_infos()) {
     if (is_among(fault.name, declared)) continue;

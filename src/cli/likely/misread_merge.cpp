@@ -66,6 +66,8 @@ std::vector<MisreadState> states_of_merge() {
        of_draws([](Draw& d) { return reset(d.depth_func, DepthFunc::always); })},
       {"visibility", "depth_mask_ignored", "depths are written, though they are masked",
        of_draws([](Draw& d) { return reset(d.merge.depth_mask, true); })},
+      {"visibility", "depth_not_written", "no depth is written",
+       of_draws([](Draw& d) { return reset(d.merge.depth_mask, false); })},
       {"visibility", "equal_depth_left_out", "an equal depth fails where it may pass",
        of_draws([](Draw& d) { return leaves_equal_out(d.depth_func); })},
       {"visibility", "depth_func_stays", "a draw of depth function less has that of the draw before",

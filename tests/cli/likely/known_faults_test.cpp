@@ -46,6 +46,31 @@ TEST(KnownFaults, OfRowsAndDepthRangesAreContradictedByConventionsThatTellThem) 
   EXPECT_TRUE(is_contradicted("file.depth_reversed", open));
 }
 
+TEST(KnownFaults, OfCodesForNumbersAreThoseOfFramesBeyondOne) {
+  const Scene scene = suite_scene("light/emission");
+  GivenFrame given{draw_with({}, scene, {}), {}, {}};
+  EXPECT_EQ(find(known_faults(scene, given), "file.codes_for_numbers"), nullptr);
+  for (glm::vec4& color : given.color.values()) color *= 255.0f;
+  EXPECT_NE(find(known_faults(scene, given), "file.codes_for_numbers"), nullptr);
+  const Lookalikes found = lookalikes(scene, given);
+  EXPECT_EQ(found.likely, "file (fault file.codes_for_numbers)");
+  EXPECT_TRUE(found.whole) << found.text;
+}
+
+// The Pikuma course's depth buffer: 1/w, of which the largest is kept.
+TEST(KnownFaults, OfDepthsThatAreNearnessAreNamed) {
+  const Scene scene = suite_scene("depth/interpenetrating");
+  const std::vector<KnownFault> known = known_faults(scene, {});
+  GivenFrame given{draw_with(std::vector{find(known, "depth.of_inv_w")}, scene, {}), {}, {}};
+  const Lookalikes found = lookalikes(scene, given);
+  EXPECT_EQ(found.likely, "depth (fault depth.of_inv_w)");
+  EXPECT_TRUE(found.whole) << found.text;
+  // Declared one_to_zero, and turned round as all of the renderer's depths.
+  given.conventions.depth_range = C::DepthRange::one_to_zero;
+  for (double& z : given.depth.values()) z = 1 - z;
+  EXPECT_EQ(lookalikes(scene, given).likely, "depth (fault depth.of_inv_w)");
+}
+
 // A renderer whose rows were turned round since its conventions were learned.
 TEST(KnownFaults, ThatConventionsContradictAreNamedWhereTheyExplainAll) {
   const Scene scene = suite_scene("light/emission");
