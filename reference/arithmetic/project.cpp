@@ -141,10 +141,14 @@ void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, T
   }
 }
 
-/// edge_displacement() of the edges of a triangle's visible part.
-double of_edges(const Projected& scene, std::span<const glm::dvec2> outline) {
-  const auto [low, high] = std::ranges::minmax(outline, {}, [](const glm::dvec2& p) { return p.y; });
-  return edge_displacement(scene.conventions.depth_arithmetic, high.y - low.y, scene.width);
+/// edge_displacement() of the edges of a triangle's visible part. The box of a triangle that the frame cuts may be as
+/// large as the frame, however small that part is.
+glm::dvec2 of_edges(const Projected& scene, std::span<const glm::dvec2> outline, bool is_cut) {
+  const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
+  glm::dvec2 low = outline[0], high = low;
+  for (const glm::dvec2& p : outline) low = glm::min(low, p), high = glm::max(high, p);
+  const bool is_by_box = is_cut && arithmetic == Conventions::DepthArithmetic::in_float_stepped_edges;
+  return edge_displacement(arithmetic, is_by_box ? glm::dvec2(scene.width, scene.height) : high - low, scene.width);
 }
 
 /// Sets `guarded`: the pieces of a renderer that does not clip at the sides.
@@ -230,7 +234,7 @@ void set_extent(const Projected& scene, const Draw& draw, const std::array<const
     p_window[i] = glm::dvec2(part.v[i]) / w;
     farthest = glm::max(farthest, glm::abs(part.v[i] / w));
   }
-  t.stepped = of_edges(scene, std::span(p_window).first(part.count));
+  t.stepped = of_edges(scene, std::span(p_window).first(part.count), t.cut);
   t.reach = displacement(scene, t, farthest, t.w_min);
   set_growth(scene, c, t);
   const std::span corners = std::span(p_window).first(part.count);
@@ -304,8 +308,7 @@ glm::dvec2 corner_displacement(const Projected& scene, const Corner& c) {
 }
 
 double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
-  const glm::dvec2 stepped(t.stepped, 0);
-  return t.snap + glm::length(float_displacement(scene, kFloatRounding * t.roundings * t.size, d, w) + stepped);
+  return t.snap + glm::length(float_displacement(scene, kFloatRounding * t.roundings * t.size, d, w) + t.stepped);
 }
 
 namespace {

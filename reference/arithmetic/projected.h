@@ -80,9 +80,9 @@ struct Triangle {
     glm::dvec2 extent{0};             ///< [pixels] twice their corners' largest |x|, |y| from its middle
     double w_min = 0;                 ///< of their corners
   } guarded;
-  double stepped = 0;  ///< [pixels] displacement of its edges along x where float steps x from row to row
-  double reach = 0;    ///< [pixels] largest displacement of a vertex over its visible part
-  double growth = 1;   ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
+  glm::dvec2 stepped{0};  ///< [pixels] displacement of its edges in x and y where float steps them
+  double reach = 0;       ///< [pixels] largest displacement of a vertex over its visible part
+  double growth = 1;      ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
 };
 
 /// z_win of a triangle at z_view; the polygon offset is included.

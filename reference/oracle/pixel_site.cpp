@@ -60,7 +60,7 @@ PixelSite::PixelSite(const Projected& projected, const Triangle& triangle, int p
   in_reach = inside || t.loose || border <= t.reach;
   if (!in_reach) return;
   clip_error = math::clip_error(scene, t, nearest);
-  moved = float_displacement(scene, clip_error, nearest, w) + glm::dvec2(t.stepped, 0);
+  moved = float_displacement(scene, clip_error, nearest, w) + t.stepped;
   find_pieces();
 }
 

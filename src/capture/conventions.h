@@ -21,7 +21,7 @@ struct Conventions {
   enum class TieRule { any, left_bottom, left_top, right_bottom, right_top, inclusive, exclusive };
   enum class DepthRange { zero_to_one, minus_one_to_one, one_to_zero };
   enum class Depth { as_asked, z16, z24, z32f };
-  enum class DepthArithmetic { in_double, in_float, in_float_stepped, in_float_from_origin };
+  enum class DepthArithmetic { in_double, in_float, in_float_stepped, in_float_stepped_edges, in_float_from_origin };
   enum class Encoding { linear, srgb };
   enum class ClipDepth { minus_w_to_w, zero_to_w };
   enum class DepthPlanes { cut, clamped };
@@ -99,8 +99,8 @@ inline constexpr std::array<Name, 3> kNamesOf<Conventions::DepthRange> = {"zero_
 template <>
 inline constexpr std::array<Name, 4> kNamesOf<Conventions::Depth> = {"as_asked", "z16", "z24", "z32f"};
 template <>
-inline constexpr std::array<Name, 4> kNamesOf<Conventions::DepthArithmetic> = {
-    "in_double", "in_float", "in_float_stepped", "in_float_from_origin"};
+inline constexpr std::array<Name, 5> kNamesOf<Conventions::DepthArithmetic> = {
+    "in_double", "in_float", "in_float_stepped", "in_float_stepped_edges", "in_float_from_origin"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Encoding> = {"linear", "srgb"};
 template <>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace plumbline {
 
@@ -32,13 +33,20 @@ double or_infinite(double v) { return std::isfinite(v) ? v : kInfinity; }
 
 double sum_of(glm::dvec2 v) { return v.x + v.y; }
 
-// edge_displacement() of an edge that is stepped [u of a pixel].
+// edge_displacement() of an edge whose x is stepped [u of a pixel].
 double stepped_edge(double rows, double most_x) { return 2 * (std::ceil(rows) + 2) * most_x; }
+
+// Number of steps over a box of pixels, from any of its corners.
+double steps_over(glm::dvec2 box) { return sum_of(glm::ceil(box) + 2.0); }
 
 }  // namespace
 
-double edge_displacement(Conventions::DepthArithmetic arithmetic, double rows, double most_x) {
-  return arithmetic == Conventions::DepthArithmetic::in_float_stepped ? kU * stepped_edge(rows, most_x) : 0;
+glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, glm::dvec2 box, double most_x) {
+  using enum Conventions::DepthArithmetic;
+  if (arithmetic == in_float_stepped) return {kU * stepped_edge(box.y, most_x), 0};
+  if (arithmetic != in_float_stepped_edges) return glm::dvec2(0);
+  const glm::dvec2 walked = box + 2.0;  // the box's pixels
+  return glm::dvec2(kU * ((steps_over(walked) + 4 * std::numbers::sqrt2) * glm::length(walked) + sum_of(walked)));
 }
 
 double error_by_edge_functions(const WindowCorners& corners, glm::dvec2 p) {
@@ -99,7 +107,31 @@ double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 fra
   }
   const glm::dvec2 way = glm::min(glm::max(glm::abs(p - low), glm::abs(high - p)), frame);  // from either side
   const double of_edge = stepped_edge(way.y, std::max(std::abs(low.x), std::abs(high.x)));
-  return or_infinite(most * sum_of(glm::ceil(way) + 2.0) + of_edge * std::abs(slope));
+  return or_infinite(most * steps_over(way) + of_edge * std::abs(slope));
+}
+
+double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame) {
+  const Edges edges(corners);
+  glm::dvec2 low = p, high = p;
+  for (const glm::dvec2& corner : edges.at) {
+    low = glm::min(low, corner - 1.0);
+    high = glm::max(high, corner + 1.0);
+  }
+  low = glm::max(low, frame == kNoSides ? -frame : glm::dvec2(0));
+  high = glm::min(high, frame);
+  const glm::dvec2 box = high - low;
+  double out = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 along = edges.to(i) - edges.from(i);
+    double most = 0, most_terms = 0;
+    for (const glm::dvec2 at : {low, high, glm::dvec2(low.x, high.y), glm::dvec2(high.x, low.y)}) {
+      most = std::max(most, std::abs(cross(along, at - edges.from(i))));
+      most_terms = std::max(most_terms, terms(along, at - edges.from(i)));
+    }
+    const double of_steps = steps_over(box) * most + terms(along, box + 2.0);
+    out += std::abs(corners[i].z) * (4 * most_terms + of_steps) / std::abs(edges.area);
+  }
+  return or_infinite(out);
 }
 
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
@@ -108,6 +140,7 @@ double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners&
   if (arithmetic == in_double) return 0;
   double out = std::max(error_by_edge_functions(corners, p), error_by_plane(corners, p));
   if (arithmetic == in_float_stepped) out += error_by_steps(corners, p, frame);
+  if (arithmetic == in_float_stepped_edges) out += error_by_stepped_edges(corners, p, frame);
   if (arithmetic == in_float_from_origin) out = std::max(out, error_by_edge_equations(corners, p));
   return kU * (out + 1);
 }
@@ -131,7 +164,7 @@ double attribute_error(double shares, double most) {
 // A triangle of altitude h has A >= h L, L its longest side, at most the window's diagonal D: no less than h^2. Depths
 // are at most 1, their gradient g at most 2 / h. Products of differences are at most L D, those of positions at most 4
 // times the window's area. A plane's differences of depths are at most g L, so that its gradient is off by 3 sqrt(2) g
-// L / h or less (both components together), over a distance of at most D.
+// L / h or less (both components together), over a distance of at most D. A stepped edge function is at most L (D + 2).
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window,
                              glm::dvec2 frame) {
   using enum Conventions::DepthArithmetic;
@@ -144,7 +177,11 @@ double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double alt
                by_equations = 10 * 30 * window.x * window.y / (altitude * altitude);
   const glm::dvec2 stepped = glm::min(window, frame);
   const double of_edge = stepped_edge(stepped.y + 1, window.x) * rise / diagonal,
-               steps = arithmetic == in_float_stepped ? sum_of(stepped) + 6 + of_edge : 0,
+               by_steps = arithmetic == in_float_stepped ? sum_of(stepped) + 6 + of_edge : 0,
+               by_stepped_edges =
+                   3 * ((4 * std::numbers::sqrt2 + steps_over(stepped + 2.0)) * (diagonal + 3) + sum_of(stepped) + 8) /
+                   altitude,
+               steps = arithmetic == in_float_stepped_edges ? by_stepped_edges : by_steps,
                in_differences = std::max(by_edges, by_plane) + steps;
   return kU * ((arithmetic == in_float_from_origin ? std::max(in_differences, by_equations) : in_differences) + 1);
 }

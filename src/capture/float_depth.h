@@ -34,9 +34,14 @@ double error_by_plane(const WindowCorners& corners, glm::dvec2 p);
 /// |A|. Small triangles far from the origin lose most.
 double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
-/// Displacement along x of an edge over `rows` rows, where |x| is at most `most_x` [pixels]. in_float_stepped: x is
-/// added up from row to row, two roundings a row (slope, sum), two more at each end. Otherwise 0.
-double edge_displacement(Conventions::DepthArithmetic arithmetic, double rows, double most_x);
+/// Displacement in x and in y of an edge [pixels] whose triangle's box, or its part in the frame, has the size `box`;
+/// |x| is at most `most_x` [pixels].
+/// - in_float_stepped: x is added up from row to row, two roundings a row (slope, sum), two more at each end.
+/// - in_float_stepped_edges: an edge function is added up over the box, and is at most the box's diagonal times the
+///   edge's length. One rounding a step of that size, one of the step itself, by the edge's length; 4 u of its terms at
+///   the box's corner. In any direction.
+/// - Otherwise 0.
+glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, glm::dvec2 box, double most_x);
 
 /// Error that stepping z from a corner to p adds to a plane's error [u of window z]: a sum for each row along an edge
 /// and for each column, of numbers of at most the largest |z_i|; and |dz/dx| times edge_displacement(), as the edge's x
@@ -44,10 +49,16 @@ double edge_displacement(Conventions::DepthArithmetic arithmetic, double rows, d
 /// over rows and columns beyond the frame.
 double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame);
 
+/// Error of sum z_i e_i / A at p beyond error_by_edge_functions() [u of window z], where each e_i is added up from a
+/// corner of the triangle's box in the frame, from pixel to pixel and from row to row, and is divided by A in the end:
+/// one rounding a step, of at most the largest |e_i| in the box; one of a_i or b_i in each step; and 4 u of the terms
+/// at the box's corner. Beside a sliver's long edges |e_i| is large there, and A is small.
+double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame);
+
 /// Error of a depth at p [window z], plus u for its code: a product and a sum, each off by half a unit in the last
 /// place of a number below 1. in_double: 0. in_float: the larger of error_by_edge_functions() and error_by_plane().
-/// in_float_stepped: the same, plus error_by_steps(). in_float_from_origin: the largest of the two and of
-/// error_by_edge_equations().
+/// in_float_stepped: the same, plus error_by_steps(). in_float_stepped_edges: the same, plus error_by_stepped_edges().
+/// in_float_from_origin: the largest of the two and of error_by_edge_equations().
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
                    glm::dvec2 frame);
 

@@ -275,15 +275,26 @@ std::vector<SlopedTriangle> small_and_far(int grid_bits) {
   return out;
 }
 
+// One triangle along the frame's diagonal, 700 pixels long, 2 wide and nearly level: stepped edge functions are large
+// beside it, and its area is small.
+std::vector<SlopedTriangle> long_and_aslant(int grid_bits) {
+  const auto at = [&](double x, double y, double code) {
+    const auto on_grid = [&](double p) { return std::ldexp(std::nearbyint(std::ldexp(p, grid_bits)), -grid_bits); };
+    return glm::dvec3(on_grid(x), on_grid(y), code / 65536);
+  };
+  return {{{at(3.1934, 5.3047, 30011), at(503.9385, 489.1943, 30048), at(251.4404, 248.8115, 30094)}}};
+}
+
 // Format in which the renderer leaves the depths of a 24-bit frame.
 DepthFormat format_of_24(C::Depth format) {
   return format == C::Depth::z16 ? DepthFormat::z16 : format == C::Depth::z32f ? DepthFormat::z32f : DepthFormat::z24;
 }
 
-// Counts of pixels within triangles: all; those whose depth is the rounded exact depth; those within the error of each
-// float arithmetic.
+// Counts of pixels within triangles: all, and, by arithmetic, those whose depth is within the arithmetic's error of the
+// rounded exact depth.
 struct Interpolated {
-  std::size_t pixels = 0, in_double = 0, in_float = 0, stepped = 0, from_origin = 0;
+  std::size_t pixels = 0;
+  std::array<std::size_t, kNamesOf<C::DepthArithmetic>.size()> fit{};
   double most = 0;  // [steps more than rounding]
 };
 
@@ -307,15 +318,12 @@ void count(Prober& prober, glm::ivec2 size, const std::vector<SlopedTriangle>& t
     if (!t.holds(sample)) return;
     const double z = t.depth(sample), step = depth_step(format_of_24(c.depth_format), z),
                  off = farther(0, (left(x, y) - z) / step + middle_of(c.depth_rounding)) - 0.5;
-    const auto fits = [&](C::DepthArithmetic arithmetic) {
-      return std::size_t{off <= kDoubleError + depth_error(arithmetic, t.p_win, sample, size) / step ? 1u : 0u};
-    };
     out.most = std::max(out.most, off);
     ++out.pixels;
-    out.in_double += fits(C::DepthArithmetic::in_double);
-    out.in_float += fits(C::DepthArithmetic::in_float);
-    out.stepped += fits(C::DepthArithmetic::in_float_stepped);
-    out.from_origin += fits(C::DepthArithmetic::in_float_from_origin);
+    for (std::size_t i = 0; i < out.fit.size(); ++i) {
+      const auto arithmetic = static_cast<C::DepthArithmetic>(i);
+      out.fit[i] += off <= kDoubleError + depth_error(arithmetic, t.p_win, sample, size) / step ? 1 : 0;
+    }
   };
   for (const SlopedTriangle& t : triangles) {
     const auto [low_x, high_x] = std::minmax({t.p_win[0].x, t.p_win[1].x, t.p_win[2].x});
@@ -342,13 +350,13 @@ void learn_depth_arithmetic(Prober& prober) {
   count(prober, {64, 64}, large_and_near(), of);
   count(prober, {2048, 8}, long_and_low(), of);
   count(prober, {512, 512}, small_and_far(bits), of);
-  std::string evidence = fmt::format("{} of {} depths are rounded from the exact depth", of.in_double, of.pixels);
-  if (of.in_double < of.pixels) evidence += fmt::format("; others by up to {:.3g} steps more than rounding", of.most);
-  if (std::max(of.stepped, of.from_origin) < of.pixels) return prober.fits_none(words, evidence);
-  c.depth_arithmetic = of.in_double == of.pixels  ? C::DepthArithmetic::in_double
-                       : of.in_float == of.pixels ? C::DepthArithmetic::in_float
-                       : of.stepped == of.pixels  ? C::DepthArithmetic::in_float_stepped
-                                                  : C::DepthArithmetic::in_float_from_origin;
+  count(prober, {512, 512}, long_and_aslant(bits), of);
+  const std::size_t exact = of.fit.front();
+  std::string evidence = fmt::format("{} of {} depths are rounded from the exact depth", exact, of.pixels);
+  if (exact < of.pixels) evidence += fmt::format("; others by up to {:.3g} steps more than rounding", of.most);
+  const auto first = std::ranges::find(of.fit, of.pixels);  // from the least errors to the largest
+  if (first == of.fit.end()) return prober.fits_none(words, evidence);
+  c.depth_arithmetic = static_cast<C::DepthArithmetic>(first - of.fit.begin());
   prober.found(words, name_of(c.depth_arithmetic), evidence);
 }
 

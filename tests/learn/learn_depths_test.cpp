@@ -28,6 +28,12 @@ TEST(LearnDepths, InFloatAreFound) {
     }
   }));
   EXPECT_EQ(stepped.depth_arithmetic, in_float_stepped);
+  OfAlteredScenes of_edges;
+  of_edges.after = [](const Scene& scene, Capture& c) {
+    if (scene.frame.width != 512 || scene.meshes[0].triangles.size() != 1) return;
+    for (double& z : c.planes.depth.values()) z += 3e4 / 16777215;
+  };
+  EXPECT_EQ(learn(of_edges).conventions.depth_arithmetic, in_float_stepped_edges) << "a sliver's depths are far off";
   for (const auto& [codes, least_side] : {std::pair(1000.0, 0), std::pair(1e7, 512)}) {
     const C wrong = learned_of(codes, least_side);
     EXPECT_EQ(wrong.depth_arithmetic, in_double);

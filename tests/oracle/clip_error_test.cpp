@@ -105,10 +105,17 @@ TEST(ClipError, SteppedEdgesMoveAlongX) {
   in_float.depth_arithmetic = Conventions::DepthArithmetic::in_float;
   const Projected by_steps = project(floor_across_the_eye(), stepped), none = project(floor_across_the_eye(), in_float);
   const Triangle &t = by_steps.triangles[0], &same = none.triangles[0];
-  EXPECT_EQ(same.stepped, 0);
-  EXPECT_GT(t.stepped, 20 * 80 * kFloatRounding);
-  EXPECT_LE(t.stepped, 2 * 63 * 80 * kFloatRounding);
+  EXPECT_EQ(same.stepped, glm::dvec2(0));
+  EXPECT_GT(t.stepped.x, 20 * 80 * kFloatRounding);
+  EXPECT_LE(t.stepped.x, 2 * 63 * 80 * kFloatRounding);
+  EXPECT_EQ(t.stepped.y, 0);
   EXPECT_GT(t.reach, same.reach);
+  // Edge functions are stepped over the box of a triangle that the frame cuts: over the frame.
+  stepped.depth_arithmetic = Conventions::DepthArithmetic::in_float_stepped_edges;
+  const Triangle by_edges = project(floor_across_the_eye(), stepped).triangles[0];
+  EXPECT_GT(by_edges.stepped.x, 140 * 100 * kFloatRounding);
+  EXPECT_LE(by_edges.stepped.x, 160 * 110 * kFloatRounding);
+  EXPECT_EQ(by_edges.stepped.y, by_edges.stepped.x);
 }
 
 // A side beside the pixel (30, 20)'s centre, 0.0005 pixel to its right.

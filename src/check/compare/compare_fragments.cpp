@@ -92,25 +92,29 @@ bool has_corner_between_places(const WindowTriangle<double>& t, const Convention
 
 namespace {
 
-// edge_displacement() of a triangle's edges in a frame of that height [pixels].
-double of_steps(const WindowTriangle<double>& t, const Conventions& conventions, double height) {
-  const auto [low, high] = std::minmax({t.v[0].p_win.y, t.v[1].p_win.y, t.v[2].p_win.y});
-  const double most_x = std::max({std::abs(t.v[0].p_win.x), std::abs(t.v[1].p_win.x), std::abs(t.v[2].p_win.x)});
-  return edge_displacement(conventions.depth_arithmetic, std::min(high - low, height), most_x);
+// edge_displacement() of a triangle's edges in a frame of that size [pixels].
+double of_steps(const WindowTriangle<double>& t, const Conventions& conventions, glm::dvec2 frame) {
+  glm::dvec2 low(t.v[0].p_win), high = low;
+  for (const WindowVertex<double>& v : t.v) {
+    low = glm::min(low, glm::dvec2(v.p_win));
+    high = glm::max(high, glm::dvec2(v.p_win));
+  }
+  const double most_x = std::max(std::abs(low.x), std::abs(high.x));
+  return glm::length(edge_displacement(conventions.depth_arithmetic, glm::min(high - low, frame), most_x));
 }
 
 // Displacement of a triangle's edges in the candidate [pixels]: by steps, and by the grid, which moves a corner by up
 // to half a step in x and in y (rounded down or up: a whole step). Without a grid, an edge function in float is off by
 // 8 u of the largest coordinates.
-double moved(const WindowTriangle<double>& t, const Conventions& conventions, double height) {
+double moved(const WindowTriangle<double>& t, const Conventions& conventions, glm::dvec2 frame) {
   const int bits = conventions.subpixel_bits;
   if (bits == Conventions::kFloat) {
     double most = 0;
     for (const WindowVertex<double>& v : t.v) most = std::max(most, std::abs(v.p_win.x) + std::abs(v.p_win.y));
-    return 8 * u * most + of_steps(t, conventions, height);
+    return 8 * u * most + of_steps(t, conventions, frame);
   }
   const bool to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
-  return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions, height);
+  return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions, frame);
 }
 
 // Legality of a sample's membership in the two triangles that share its edge, by a tie rule.
@@ -135,7 +139,7 @@ std::size_t edges_near(const std::array<glm::dvec2, 3>& corners, glm::dvec2 p, d
 // and is_owned() is false.
 template <class Open>
 Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions, glm::dvec2 sample, double height, Open open) {
+                                    const Conventions& conventions, glm::dvec2 sample, glm::dvec2 frame, Open open) {
   constexpr double kOfExact = std::numbers::sqrt2 / 2 / kSubpixel;  // [pixels] as far as exact moves a corner
   const bool by_one_grid = conventions.subpixel_bits == 8;
   std::optional<SharedEdges> shared;  // once there is a fragment to ask about
@@ -149,8 +153,8 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
   const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
     const WindowTriangle<double>& t = candidate.triangles[triangle];
     if (by_one_grid && !has_corner_between_places(t, conventions, SnappedBy::conventions))
-      return edges_near(window_corners(t, true), p, of_steps(t, conventions, height));
-    return edges_near(window_corners(t, false), p, moved(t, conventions, height) + (by_both ? kOfExact : 0));
+      return edges_near(window_corners(t, true), p, of_steps(t, conventions, frame));
+    return edges_near(window_corners(t, false), p, moved(t, conventions, frame) + (by_both ? kOfExact : 0));
   };
   const auto on_an_edge = [&](const Covered& c) {
     const glm::dvec2 p = glm::dvec2(c.x, c.y) + sample;
@@ -167,14 +171,14 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
 }  // namespace
 
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
-                                         const Conventions& conventions, glm::dvec2 sample, double height) {
-  return covered_except_edges_of(candidate, reference, conventions, sample, height, [](const auto&) { return true; });
+                                         const Conventions& conventions, glm::dvec2 sample, glm::dvec2 frame) {
+  return covered_except_edges_of(candidate, reference, conventions, sample, frame, [](const auto&) { return true; });
 }
 
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions, SnappedBy snapped_by, double height) {
+                                    const Conventions& conventions, SnappedBy snapped_by, glm::dvec2 frame) {
   return covered_except_edges_of(
-      candidate, reference, conventions, glm::dvec2(0.5), height,
+      candidate, reference, conventions, glm::dvec2(0.5), frame,
       [&](const WindowTriangle<double>& t) { return has_corner_between_places(t, conventions, snapped_by); });
 }
 

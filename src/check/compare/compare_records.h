@@ -73,11 +73,11 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// unless a corner lies between two grid positions.
 /// A fragment differs nevertheless where the sample lies on an edge that two triangles share (shared_edges.h), near no
 /// other edge of these, and is not in exactly one of the two (inclusive: nor in both; exclusive: nor in neither).
-/// `sample`: sample position [pixels from the pixel's corner of smallest coordinates]. `height`: of the frame [pixels],
-/// in whose rows edges are stepped.
+/// `sample`: sample position [pixels from the pixel's corner of smallest coordinates]. `frame`: its size [pixels], in
+/// whose rows and columns edges are stepped.
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
                                          const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5),
-                                         double height = kNoSides.y);
+                                         glm::dvec2 frame = kNoSides);
 /// True if the candidate may have snapped a corner to either of two grid positions: its records hold no snapped
 /// positions, and a corner lies within 4 u of the middle between two grid positions (rounding to the nearest) or within
 /// kOfFixedPoint of a grid position (rounding down or up).
@@ -86,7 +86,7 @@ bool has_corner_between_places(const WindowTriangle<double>& t, const Convention
 /// edges are ambiguous only in triangles for which has_corner_between_places() is true.
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions, SnappedBy snapped_by = SnappedBy::renderer,
-                                    double height = kNoSides.y);
+                                    glm::dvec2 frame = kNoSides);
 /// Planes count and id_sum (capture.h) of fragments whose `triangle` is an index into `triangles`.
 struct FragmentSums {
   Plane<std::uint32_t> count;

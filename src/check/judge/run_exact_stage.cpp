@@ -169,12 +169,12 @@ void compare_coverage_stage(const SceneJudgement& c, const Capture& made, const 
   const Records<double>&mine = c.candidate.records, &theirs = made.records;
   const Stage stage = Stage::coverage;
   const bool are_counted = are_sums_of(mine, c.candidate.planes);
+  const glm::dvec2 frame(c.scene.frame.width, c.scene.frame.height);
   if (c.foreign && are_counted && knows_ties(c.scene, c.conventions))
-    return c.add(name, stage,
-                 compare_covered_by_rule(mine, theirs, c.conventions, c.candidate.snapped_by, c.scene.frame.height));
+    return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions, c.candidate.snapped_by, frame));
   if (covers_otherwise(c) && are_counted) {
     const glm::dvec2 sample = 0.5 + glm::dvec2(sample_offset(c.scene.frame)) / double{kSubpixel};
-    return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample, c.scene.frame.height));
+    return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample, frame));
   }
   Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
   if (c.candidate.planes.id_sum.empty())

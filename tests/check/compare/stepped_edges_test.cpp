@@ -6,7 +6,7 @@ namespace plumbline::check {
 namespace {
 
 // A side rises over 1,800 rows at x = 1,900 pixels; the centre of (1900, 900) lies `outside` pixels beyond it.
-Measurement extra_fragment(double outside, Conventions::DepthArithmetic arithmetic, double height = kNoSides.y) {
+Measurement extra_fragment(double outside, Conventions::DepthArithmetic arithmetic, glm::dvec2 frame = kNoSides) {
   const double x = 1900.5 - outside;
   Records<double> reference;
   WindowTriangle<double> t{};
@@ -21,7 +21,7 @@ Measurement extra_fragment(double outside, Conventions::DepthArithmetic arithmet
   conventions.subpixel_bits = Conventions::kFloat;
   conventions.tie_rule = Conventions::TieRule::left_top;
   conventions.depth_arithmetic = arithmetic;
-  return compare_covered_except_edges(candidate, reference, conventions, glm::dvec2(0.5), height);
+  return compare_covered_except_edges(candidate, reference, conventions, glm::dvec2(0.5), frame);
 }
 
 TEST(SteppedEdges, MayCoverAsFarAsTheirRoundingsReach) {
@@ -39,8 +39,19 @@ TEST(SteppedEdges, MayCoverAsFarAsTheirRoundingsReach) {
 TEST(SteppedEdges, AreSteppedInTheRowsOfTheFrame) {
   const double reach = 2 * kU * 102 * 1900;  // of 100 rows: 0.023
   using enum Conventions::DepthArithmetic;
-  EXPECT_EQ(extra_fragment(0.95 * reach, in_float_stepped, 100).differing, 0u);
-  EXPECT_TRUE(fails(extra_fragment(1.4 * reach, in_float_stepped, 100))) << "the grid's reach is a fifth of that";
+  EXPECT_EQ(extra_fragment(0.95 * reach, in_float_stepped, {2000, 100}).differing, 0u);
+  EXPECT_TRUE(fails(extra_fragment(1.4 * reach, in_float_stepped, {2000, 100}))) << "the grid reaches a fifth of that";
+}
+
+// Edge functions that are added up over the triangle's box: its steps times its diagonal, and in any direction, which
+// the factor of sqrt(2) allows for.
+TEST(SteppedEdges, AreDisplacedByTheStepsOfTheirEdgeFunctions) {
+  using enum Conventions::DepthArithmetic;
+  const glm::dvec2 box(1802.5, 1802);
+  const double steps = 1805 + 1804, reach = std::sqrt(2.0) * kU * (steps + 6) * glm::length(box);  // 0.78
+  EXPECT_EQ(extra_fragment(0.95 * reach, in_float_stepped_edges).differing, 0u);
+  EXPECT_TRUE(fails(extra_fragment(1.1 * reach, in_float_stepped_edges)));
+  EXPECT_TRUE(fails(extra_fragment(0.5 * reach, in_float_stepped_edges, {2000, 100}))) << "fewer steps in the frame";
 }
 
 // A triangle with a corner 4,000 rows below the frame, and a fragment in it.

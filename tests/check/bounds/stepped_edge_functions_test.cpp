@@ -1,0 +1,137 @@
+// Edge functions that float adds up from the lower left corner of a triangle's box, from row to row and from pixel to
+// pixel, and that are divided by twice the area at each pixel.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "capture/float_depth.h"
+
+namespace plumbline {
+namespace {
+
+constexpr double kU = 0x1p-24;
+
+struct EdgeFunction {
+  float of_column, of_row, at_first;  // changes of the edge function from pixel to pixel; its value at the box's corner
+};
+
+struct SteppedTriangle {
+  explicit SteppedTriangle(const WindowCorners& corners) {
+    std::array<glm::vec2, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = glm::vec2(corners[i]), z[i] = static_cast<float>(corners[i].z);
+    const auto [low_x, high_x] = std::minmax({v[0].x, v[1].x, v[2].x});
+    const auto [low_y, high_y] = std::minmax({v[0].y, v[1].y, v[2].y});
+    first = glm::max(glm::floor(glm::vec2(low_x, low_y)), 0.0f) + 0.5f;
+    const auto function = [](glm::vec2 a, glm::vec2 b, glm::vec2 p) {
+      return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    };
+    area = function(v[0], v[1], v[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec2 a = v[(i + 1) % 3], b = v[(i + 2) % 3];
+      edges[i] = {a.y - b.y, b.x - a.x, function(a, b, first)};
+    }
+  }
+  std::array<float, 3> at(int x, int y) const {
+    std::array<float, 3> out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      out[i] = edges[i].at_first;
+      for (float row = first.y; row < static_cast<float>(y) + 0.5f; ++row) out[i] += edges[i].of_row;
+      for (float column = first.x; column < static_cast<float>(x) + 0.5f; ++column) out[i] += edges[i].of_column;
+    }
+    return out;
+  }
+  float depth(int x, int y) const {
+    const std::array<float, 3> e = at(x, y);
+    return (e[0] * z[0] + e[1] * z[1] + e[2] * z[2]) / area;
+  }
+
+  std::array<EdgeFunction, 3> edges;
+  std::array<float, 3> z;
+  glm::vec2 first{0};
+  float area = 0;
+};
+
+// Largest ratios over random triangles that are at least two pixels thin: of a depth's error to the bounds of the
+// arithmetics, and of an edge's displacement to its bound.
+struct EdgeRatios {
+  double of_bound = 0, of_product = 0, of_displacement = 0;
+};
+EdgeRatios largest_edge_ratios(double reach) {
+  using enum Conventions::DepthArithmetic;
+  std::mt19937 random(7);
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  EdgeRatios out;
+  for (int n = 0; n < 300; ++n) {
+    const glm::dvec2 frame = glm::floor(glm::dvec2(std::exp2(in(3, 11)), std::exp2(in(3, 11))));
+    WindowCorners corners;
+    for (glm::dvec3& corner : corners) {
+      const auto along = [&](double side) { return side * (0.5 + reach * in(-0.5, 0.5)); };
+      corner = glm::dvec3(glm::vec3(along(frame.x), along(frame.y), in(0, 1)));
+    }
+    if (n % 2 == 0) {  // a sliver: the third corner lies beside the middle of the other two
+      const glm::vec3 middle(0.5 * (corners[0] + corners[1]));
+      corners[2] = glm::dvec3(middle + glm::vec3(1.5f, -1.5f, 0.1f));
+    }
+    const glm::dvec2 a(corners[0]), e1 = glm::dvec2(corners[1]) - a, e2 = glm::dvec2(corners[2]) - a;
+    const double area = e1.x * e2.y - e2.x * e1.y;
+    if (std::abs(area) < 4 || std::max(glm::length(e1), glm::length(e2)) > std::abs(area)) continue;
+    const SteppedTriangle stepped(corners);
+    for (int k = 0; k < 64; ++k) {
+      const double s = in(0.02, 0.9), t = in(0.02, 0.96 - s);
+      const glm::dvec2 inside = glm::floor(a + s * e1 + t * e2), p = inside + 0.5, q = p - a;
+      const double b1 = (q.x * e2.y - e2.x * q.y) / area, b2 = (e1.x * q.y - q.x * e1.y) / area;
+      const bool is_seen = inside.x >= 0 && inside.y >= 0 && inside.x < frame.x && inside.y < frame.y;
+      if (!is_seen || std::min({b1, b2, 1 - b1 - b2}) < 0) continue;
+      const double z = corners[0].z + b1 * (corners[1].z - corners[0].z) + b2 * (corners[2].z - corners[0].z);
+      const int x = static_cast<int>(inside.x), y = static_cast<int>(inside.y);
+      const double off = std::abs(static_cast<double>(stepped.depth(x, y)) - z);
+      out.of_bound = std::max(out.of_bound, off / depth_error(in_float_stepped_edges, corners, p, frame));
+      out.of_product = std::max(out.of_product, off / depth_error(in_float, corners, p, frame));
+      // Of the edge opposite corner 2, whose function is b2 times the area.
+      const glm::dvec2 box = glm::min(glm::max(glm::abs(e1), glm::max(glm::abs(e2), glm::abs(e2 - e1))), frame);
+      const double moved = std::abs(static_cast<double>(stepped.at(x, y)[2]) - b2 * area) / glm::length(e1),
+                   bound = edge_displacement(in_float_stepped_edges, box, frame.x).x;
+      if (reach <= 1) out.of_displacement = std::max(out.of_displacement, moved / bound);
+    }
+  }
+  std::printf("%.3f of the bound, %.3f of that of in_float; edges: %.3f\n", out.of_bound, out.of_product,
+              out.of_displacement);
+  return out;
+}
+
+TEST(SteppedEdgeFunctions, AreWithinTheirBoundAndBeyondThatOfDirectOnes) {
+  const EdgeRatios of = largest_edge_ratios(1);
+  EXPECT_LE(of.of_bound, 1);
+  EXPECT_GE(of.of_bound, 0.02) << "loose";
+  EXPECT_GT(of.of_product, 10);
+  EXPECT_LE(of.of_displacement, 1);
+  EXPECT_GE(of.of_displacement, 0.05) << "loose";
+}
+
+TEST(SteppedEdgeFunctions, AreWithinTheirBoundWhereCornersLieBeyondTheFrame) {
+  for (const double reach : {4, 40}) {
+    const EdgeRatios of = largest_edge_ratios(reach);
+    EXPECT_LE(of.of_bound, 1);
+    EXPECT_GT(of.of_product, 1);
+  }
+}
+
+TEST(SteppedEdgeFunctions, StepInTheFrameAlone) {
+  using enum Conventions::DepthArithmetic;
+  const WindowCorners corners = {{{0, -4000, 0}, {100, -4000, 0}, {50, 100, 1}}};
+  const glm::dvec2 p(50.5, 50.5), frame(100, 100);
+  EXPECT_LT(10 * error_by_stepped_edges(corners, p, frame), error_by_stepped_edges(corners, p, kNoSides));
+  EXPECT_EQ(edge_displacement(in_float, {100, 100}, 100), glm::dvec2(0));
+  const glm::dvec2 moved = edge_displacement(in_float_stepped_edges, {100, 100}, 100);
+  EXPECT_EQ(moved.x, moved.y);
+  EXPECT_GE(moved.x, kU * 200 * std::hypot(100.0, 100.0));
+  EXPECT_EQ(depth_error_of_pieces(in_float_stepped_edges, 0, 1, {4000, 4000}, frame),
+            std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace plumbline
