@@ -53,7 +53,7 @@ TEST_F(Cli, ProgramOfASuiteEndsWithARowPerFeature) {
   EXPECT_GE(all.right, 45);
   EXPECT_EQ(all.failed, 0);
   EXPECT_EQ(tally(run, "fog").unable, 13);
-  EXPECT_EQ(tally(run, "clip").right, 18);
+  EXPECT_EQ(tally(run, "clip").right, 19);
   for (const char* line : {"unable: fog 13\n", "unable: a frame in which nothing is drawn holds, too 5"})
     EXPECT_TRUE(run.says(line)) << run.text;
 }
