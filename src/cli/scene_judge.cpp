@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "capture/same_bits.h"
+#include "check/diagnose/diagnose.h"
 #include "check/golden/golden.h"
 #include "check/judge/judge.h"
 #include "cli/check_failures.h"
@@ -35,10 +37,30 @@ std::optional<Planes> drawn_alone(ProgramArgument program, const Scene& scene) {
   }
 }
 
+// Causes that the records of the first stage that is wrong by itself show (check/diagnose/causes.h); none without
+// records, or in a large scene.
+std::vector<std::string> causes_by_records(const Scene& scene, Renderer& candidate, const check::SceneVerdict& verdict,
+                                           std::span<const check::Reference> references) {
+  constexpr std::uint64_t kMostFragments = 200'000;
+  const auto is_wrong_by_itself = [](const check::Comparison& row) {
+    return row.judge.kind == check::Kind::per_stage && row.outcome == check::Outcome::different;
+  };
+  const auto is_exact = [](const check::Reference& r) { return r.renderer && is_referee(r.renderer->info()); };
+  const auto exact = std::ranges::find_if(references, is_exact);
+  if (exact == references.end() || std::ranges::none_of(verdict.comparisons, is_wrong_by_itself)) return {};
+  const check::Diagnosis diagnosis = check::diagnose(scene, candidate, std::span(&*exact, 1), kMostFragments);
+  std::vector<std::string> out;
+  if (diagnosis.findings.empty()) return out;
+  const check::Finding& first = diagnosis.findings.front();
+  for (const std::string& kind : first.kinds) out.push_back(fmt::format("{} ({})", name_of(first.stage), kind));
+  return out;
+}
+
 // Likely causes of a program's wrong or failed scene: state or unset memory, where the program draws the scene
-// otherwise when started for it alone; else known faults.
-std::vector<std::string> causes_of(const CheckOptions& o, const Scene& scene, const Capture& left,
-                                   const RendererInfo& renderer, const check::SceneVerdict& verdict) {
+// otherwise when started for it alone; else known faults; else what its records show.
+std::vector<std::string> causes_of(const CheckOptions& o, const Scene& scene, const Capture& left, Renderer& candidate,
+                                   const check::SceneVerdict& verdict, std::span<const check::Reference> references) {
+  const RendererInfo& renderer = candidate.info();
   const report::Conformance ended = report::conformance_of(verdict);
   const bool is_wrong = ended == report::Conformance::differs, is_failed = ended == report::Conformance::failed;
   if (!is_wrong && !is_failed) return {};
@@ -50,7 +72,10 @@ std::vector<std::string> causes_of(const CheckOptions& o, const Scene& scene, co
   if (is_failed) return {};
   const bool is_alike =
       !alone || (have_same_bits(left.planes.color, alone->color) && have_same_bits(left.planes.depth, alone->depth));
-  if (is_alike) return likely_faults(scene, left, renderer, verdict);
+  if (is_alike) {
+    const std::vector<std::string> faults = likely_faults(scene, left, renderer, verdict);
+    return faults.empty() ? causes_by_records(scene, candidate, verdict, references) : faults;
+  }
   return {"drawn otherwise by the program when it is started for this scene alone"};
 }
 
@@ -82,7 +107,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
                     : check::judge(scene, *candidate_, asked.list, wanted, ~std::uint64_t{0}, asked.arbiters);
   check::SceneVerdict& verdict = out.verdict;
   if (outside && rules_->names_causes)
-    verdict.causes = causes_of(o, scene, drawn.candidate, candidate_->info(), verdict);
+    verdict.causes = causes_of(o, scene, drawn.candidate, *candidate_, verdict, references_.list);
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),
                       std::back_inserter(verdict.comparisons));

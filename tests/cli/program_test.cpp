@@ -191,6 +191,17 @@ TEST_F(Cli, ProgramThatIsWrongIsToldByWhichKnownFaults) {
       << unsought.text;
 }
 
+// Records of a mistake beside the frame of a right renderer: no known fault draws such a frame.
+TEST_F(Cli, ProgramThatIsWrongInItsRecordsIsToldTheirCause) {
+  const std::string capture = PLUMBLINE_PLUMB " capture {scene} {output}";
+  const Outcome run = plumb("check " + kScenes + "camera/transform_chain.json --program '" + capture +
+                            "/wrong --fault attributes.next_corner && " + capture +
+                            "/right && mv {output}/wrong/* {output} && mv {output}/right/planes.color.* {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("wrong as by attributes (each corner has the next one's attributes): 1, first camera/"))
+      << run.text;
+}
+
 // A server that draws its first scene again and again, then one that ends after it: by itself, each scene is right.
 TEST_F(Cli, ProgramThatKeepsAStateIsToldSo) {
   test::write_text(folder_ / "mine",

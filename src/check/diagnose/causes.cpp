@@ -94,9 +94,10 @@ std::vector<Cause> likely_causes(const Evidence& e) {
       const Capture made = made_with(cause, e.scene, e.candidate, *e.referee, e.conventions);
       const std::uint64_t left = differing(e, made);
       if (left > all / 50) continue;
-      tried.push_back({left,
-                       is_empty(made, e.stage),
-                       {cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)}});
+      tried.push_back(
+          {left,
+           is_empty(made, e.stage),
+           {cause.name, std::string(cause.words), fmt::format(" (explains {} of {} that differ)", all - left, all)}});
     } catch (const std::exception&) {  // the referee refuses the altered records: not this cause
     }
   }

@@ -12,7 +12,8 @@ namespace plumbline::check {
 
 struct Cause {
   std::string_view name;  ///< such as "window.y_flipped"
-  std::string words;      ///< the cause, and what shows it
+  std::string words;      ///< the cause
+  std::string shown{};    ///< what shows it, after a space; or empty
 };
 
 /// Likely causes. First: causes whose pattern the differences show. Then: of the causes that the referee tries, those

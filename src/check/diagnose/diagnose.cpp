@@ -39,7 +39,10 @@ void in_full(const Evidence& evidence, Finding& finding) {
   if (finding.judge.kind != Kind::at_worst && !lacks_fragment_records(evidence.candidate)) {
     finding.explains = pixels_explained(evidence);
   }
-  for (const Cause& cause : likely_causes(evidence)) finding.causes.push_back(cause.words);
+  for (const Cause& cause : likely_causes(evidence)) {
+    finding.causes.push_back(cause.words + cause.shown);
+    finding.kinds.push_back(cause.words);
+  }
   if (finding.stage != Stage::coverage || lacks_fragment_records(evidence.candidate) ||
       lacks_fragment_records(evidence.expected))
     return;  // of a side without records of fragments, all would be missing
@@ -48,7 +51,7 @@ void in_full(const Evidence& evidence, Finding& finding) {
 }
 void in_brief(const Evidence&, Finding&) {}
 
-Finding finding_of(const Comparison& row) { return {row.stage, row.judge, row.measurement, {}, {}, 0, ""}; }
+Finding finding_of(const Comparison& row) { return {row.stage, row.judge, row.measurement, {}, {}, {}, 0, ""}; }
 
 // One scene of one sample a pixel.
 struct Pass {
@@ -197,7 +200,7 @@ Pass diagnose_pass(const Scene& of_dialect, Renderer& candidate, std::span<const
       if (judges_alone(c) && is_wrong(c)) pass.findings.push_back(finding_of(c));
     }
     const auto at = referee != nullptr ? failing_stage(scene, candidate, *referee) : std::nullopt;
-    if (at) pass.findings.push_back({at->stage, candidate.info().name, {}, {at->how}, {}, 0, ""});
+    if (at) pass.findings.push_back({at->stage, candidate.info().name, {}, {at->how}, {}, {}, 0, ""});
     return pass;
   }
   std::set<Stage> wrong;

@@ -20,7 +20,8 @@ struct Finding {
   JudgeId judge{""};                 ///< who judged it
   Measurement measurement;           ///< and by how much it is off
   std::vector<std::string> numbers;  ///< the worst record: input, output, expected output and its source
-  std::vector<std::string> causes;   ///< likely causes in words, with the evidence (causes.h)
+  std::vector<std::string> causes;   ///< likely causes in words, with what shows them (causes.h)
+  std::vector<std::string> kinds;    ///< the same causes, without what shows them
   std::size_t explains = 0;          ///< pixels of the final picture (effect.h); 0: none, or fragments were too many
   std::string picture;  ///< coverage: the worst triangle, `#` both, `?` missing, `!` extra; rows from the top; or empty
 };
@@ -54,7 +55,7 @@ inline constexpr std::uint64_t kMostFragments = std::uint64_t{1} << 20;
 /// antialiased scene: the passes together, and `resolve`.
 Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                    std::uint64_t most_fragments = kMostFragments);
-/// diagnose() for many runs: findings hold the judge and the measurement, without numbers, causes, pictures and
+/// diagnose() for many runs: findings hold the judge and the measurement, without numbers, causes, kinds, pictures and
 /// explained pixels, so that rule 1 of Diagnosis::first never applies.
 Diagnosis diagnose_in_brief(const Scene& scene, Renderer& candidate, std::span<const Reference> references);
 

@@ -288,8 +288,11 @@ std::vector<KnownFault> picture_faults() {
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
   std::vector<KnownFault> out;
   const std::vector<std::string_view> declared = declared_faults(given.conventions);
+  const std::span<const std::uint8_t> legal = given.is_legal.values();
+  const bool is_all_legal = !legal.empty() && std::ranges::all_of(legal, [](std::uint8_t l) { return l != 0; });
   for (const FaultInfo& fault : fault_infos()) {  // a wrong declaration comes before faults that draw the same frame
-    if (is_among(fault.name, kTruncations) && is_among(fault.name, declared)) out.push_back(not_as_declared(fault));
+    const bool is_declared = is_among(fault.name, kTruncations) && is_among(fault.name, declared);
+    if (is_declared && !is_all_legal) out.push_back(not_as_declared(fault));
   }
   if (may_hold_codes(scene.frame, given.color)) out.push_back(codes_for_numbers());
   std::ranges::move(of_pictures(scene.frame), std::back_inserter(out));

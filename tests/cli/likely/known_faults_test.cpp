@@ -110,6 +110,13 @@ TEST(KnownFaults, AreRoundingsThatConventionsDeclareAndTheRendererDoesNotHave) {
   declared.color_rounding = declared.depth_rounding = Conventions::Rounding::down;
   EXPECT_TRUE(is_known("merge.to_nearest", declared) && is_known("depth.to_nearest", declared));
   EXPECT_FALSE(is_known("merge.truncated", declared) || is_known("depth.truncated", declared));
+  GivenFrame legal;
+  legal.conventions = declared;
+  legal.is_legal = {2, 1, 1};
+  const Scene any = suite_scene("cull/both_windings");
+  EXPECT_EQ(find(known_faults(any, legal), "merge.to_nearest"), nullptr) << "what was declared explains all pixels";
+  legal.is_legal(1, 0) = 0;
+  EXPECT_NE(find(known_faults(any, legal), "merge.to_nearest"), nullptr);
   const Scene scene = suite_scene("light/emission");
   for (const char* fault : {"merge.to_nearest", "depth.to_nearest"}) {
     Conventions of_frame = declared;
