@@ -58,13 +58,18 @@ ReferenceCaptures capture_references(const Scene& scene, std::span<const Referen
 Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
                         const Conventions& conventions) {
   Request request{.legal = true, .planes = WantedPlanes::none, .conventions = conventions};
+  const auto differ = [](const auto& a, const auto& b, int x, int y) {
+    return a.width() == b.width() && a.height() == b.height() && !a.empty() && a(x, y) != b(x, y);
+  };
+  const Planes& p = mine.planes;
   const auto apart = [&](int x, int y) {
     return std::ranges::any_of(theirs, [&](const Capture& c) {
-      return c.planes.id.size() == mine.planes.id.size() && c.planes.id(x, y) != mine.planes.id(x, y);
+      const Planes& q = c.planes;
+      return differ(p.id, q.id, x, y) || differ(p.count, q.count, x, y) || differ(p.id_sum, q.id_sum, x, y);
     });
   };
-  for (int y = 0; y < mine.planes.id.height(); ++y) {
-    for (int x = 0; x < mine.planes.id.width(); ++x) {
+  for (int y = 0; y < scene.frame.height; ++y) {
+    for (int x = 0; x < scene.frame.width; ++x) {
       if (apart(x, y)) request.pixels.emplace_back(x, y);
     }
   }
