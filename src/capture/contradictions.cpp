@@ -121,6 +121,68 @@ void check_window(const Capture& c, Lines& out) {
   drawn("planes.color", std::ranges::count_if(p.color.values(), differs));
 }
 
+// Corners of which nothing that follows can be judged.
+void check_finite_corners(const Capture& c, Lines& out) {
+  std::size_t places = 0, inv_w = 0, colors = 0, corners = 0;
+  for (const WindowTriangle<double>& t : c.records.triangles) {
+    for (const WindowVertex<double>& v : t.v) {
+      ++corners;
+      places += !std::isfinite(v.p_win.x + v.p_win.y);
+      inv_w += !std::isfinite(v.inv_w);
+      colors += !std::isfinite(v.color.r + v.color.g + v.color.b + v.color.a);
+    }
+  }
+  const auto report_column = [&](const char* column, std::size_t count) {
+    if (count > 0) out.push_back(fmt::format("{}: {} of {} corners are not finite", column, count, corners));
+  };
+  report_column("window.p_win", places);
+  report_column("window.inv_w", inv_w);
+  report_column("window.color", colors);
+}
+
+// Range of places [1/256 pixel from the first pixel's centre] that a coordinate p_win [pixels] may be snapped to. Beyond
+// the frame, whose side along the axis is `length` pixels, it may be rounded towards the frame, too, as (int)x is.
+SnappedRange places_of(double p_win, int axis, int length, const Conventions& conventions, bool is_declared) {
+  constexpr double kUndeclared = 2 * kSubpixel;  // a grid of whole pixels, whose sample may be anywhere in them
+  const double steps = (p_win - 0.5) * kSubpixel, error = std::max(0x1p-20 * std::abs(steps), 0x1p-9);
+  if (!is_declared) return {steps - kUndeclared, steps + kUndeclared};
+  // A grid that is finer than window.snapped, or none, is rounded to it in any way.
+  const bool is_fine = conventions.subpixel_bits == Conventions::kFloat || conventions.subpixel_bits > 8;
+  if (is_fine) return {std::floor(steps - error), std::ceil(steps + error)};
+  const bool is_beyond = p_win < 0 || p_win > length;
+  const double cell = is_beyond ? std::ldexp(kSubpixel, -conventions.subpixel_bits) : 0;
+  const bool is_up = p_win < 0;
+  return {snapped_range(conventions, axis, steps - error).least - (is_up ? 0 : cell),
+          snapped_range(conventions, axis, steps + error).most + (is_up ? cell : 0)};
+}
+
+// window.snapped against window.p_win, where both are handed out.
+void check_snapped(const Capture& c, const Conventions& conventions, Lines& out) {
+  if (c.records.triangles.empty() || c.derived.contains("window.snapped")) return;
+  const auto is_open = [&](std::string_view name) { return std::ranges::count(conventions.open, name) > 0; };
+  const bool is_declared = !(conventions == undeclared()) && !is_open("subpixel_bits") && !is_open("sample") &&
+                           !is_open("subpixel_rounding") && !is_open("window_y");
+  std::size_t apart = 0, corners = 0;
+  std::string first;
+  for (std::size_t i = 0; i < c.records.triangles.size(); ++i) {
+    for (const WindowVertex<double>& v : c.records.triangles[i].v) {
+      ++corners;
+      const auto is_there = [&](int axis) {
+        const int length = axis == 0 ? c.width : c.height;
+        const auto [least, most] = places_of(v.p_win[axis], axis, length, conventions, is_declared);
+        return !std::isfinite(v.p_win[axis]) || (v.snapped[axis] >= least && v.snapped[axis] <= most);
+      };
+      if (is_there(0) && is_there(1)) continue;
+      if (apart++ == 0)
+        first = fmt::format("record {} at ({:.9g} {:.9g}) pixel is snapped to ({} {}) / 256", i, v.p_win.x, v.p_win.y,
+                            v.snapped.x, v.snapped.y);
+    }
+  }
+  if (apart > 0)
+    out.push_back(fmt::format("window.snapped: {} of {} corners are not window.p_win{}: {}", apart, corners,
+                              is_declared ? ", rounded as the conventions declare" : "", first));
+}
+
 void check_coverage(const Capture& c, Lines& out) {
   const std::vector<Covered>& covered = c.records.covered;
   if (covered.empty() || c.planes.count.empty()) return;
@@ -211,10 +273,14 @@ bool fragments_are_counted(const Capture& c) {
 
 }  // namespace
 
-std::vector<std::string> contradictions_of(const Capture& capture, Stage stage) {
+std::vector<std::string> contradictions_of(const Capture& capture, Stage stage, const Conventions& conventions) {
   Lines out;
   switch (stage) {
-    case Stage::window: check_window(capture, out); break;
+    case Stage::window:
+      check_window(capture, out);
+      check_finite_corners(capture, out);
+      check_snapped(capture, conventions, out);
+      break;
     case Stage::coverage: check_coverage(capture, out); break;
     case Stage::texture:
       if (fragments_are_counted(capture)) check_texels(capture, out);
@@ -232,6 +298,8 @@ std::vector<std::string> contradictions(const Capture& capture) {
   Lines out;
   check_matrices(capture, out);
   check_window(capture, out);
+  check_finite_corners(capture, out);
+  check_snapped(capture, undeclared(), out);
   const std::size_t before = out.size();
   check_coverage(capture, out);
   const bool are_counted = out.size() == before;

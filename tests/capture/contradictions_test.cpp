@@ -96,11 +96,53 @@ TEST_F(Contradictions, APictureWithoutTriangles) {
   c.planes.id = Plane<std::int32_t>(4, 2, kBackground);
   EXPECT_TRUE(contradictions(c).empty());
   c.planes.color(3, 1) = glm::vec4(1);
-  EXPECT_EQ(contradictions_of(c, Stage::window),
+  EXPECT_EQ(contradictions_of(c, Stage::window, {}),
             std::vector<std::string>{"window.*: no triangle, and planes.color shows 1 drawn pixels"});
   c.planes.id(3, 1) = 0;
-  EXPECT_EQ(contradictions_of(c, Stage::window).size(), 2u);
-  EXPECT_TRUE(contradictions_of(c, Stage::visibility).empty());
+  EXPECT_EQ(contradictions_of(c, Stage::window, {}).size(), 2u);
+  EXPECT_TRUE(contradictions_of(c, Stage::visibility, {}).empty());
+}
+
+TEST_F(Contradictions, WindowCornersThatAreNotFinite) {
+  const auto corner = [](auto change) { return [=](Capture& c) { change(c.records.triangles[1].v[2]); }; };
+  EXPECT_HAS(after(corner([](auto& v) { v.p_win.x = NAN; })), "window.p_win: 1 of ");
+  EXPECT_HAS(after(corner([](auto& v) { v.p_win.y = INFINITY; })), " corners are not finite");
+  EXPECT_HAS(after(corner([](auto& v) { v.inv_w = INFINITY; })), "window.inv_w: 1 of ");
+  EXPECT_HAS(after(corner([](auto& v) { v.color.a = NAN; })), "window.color: 1 of ");
+}
+
+// Without conventions, positions may be snapped to any grid; else to the declared one alone.
+TEST_F(Contradictions, SnappedPositionsThatAreNotTheWindowPositions) {
+  const auto moved = [this](int by, const Conventions& conventions) {
+    Capture c = sound_;
+    c.records.triangles[1].v[2].snapped.y += by;
+    return contradictions_of(c, Stage::window, conventions);
+  };
+  for (const int by : {0, 300, -300}) EXPECT_TRUE(moved(by, undeclared()).empty()) << by;
+  ASSERT_EQ(moved(600, undeclared()).size(), 1u);
+  EXPECT_HAS(moved(600, undeclared()).front(), "corners are not window.p_win: record 1 at (");
+  Conventions declared;
+  declared.tie_rule = Conventions::TieRule::left_bottom;
+  EXPECT_TRUE(moved(0, declared).empty());
+  ASSERT_EQ(moved(1, declared).size(), 1u);
+  EXPECT_HAS(moved(-1, declared).front(), "window.p_win, rounded as the conventions declare: record 1 at (");
+  Capture beyond = sound_;  // (int)(256 x), where the conventions declare rounding down
+  declared.subpixel_rounding = Conventions::Rounding::down;
+  beyond.records.triangles.resize(1);
+  for (WindowVertex<double>& v : beyond.records.triangles[0].v) v.p_win = {-3.01, 7.25, 0.5}, v.snapped = {-898, 1728};
+  EXPECT_TRUE(contradictions_of(beyond, Stage::window, declared).empty());
+  for (WindowVertex<double>& v : beyond.records.triangles[0].v) v.snapped.x = -897;
+  EXPECT_EQ(contradictions_of(beyond, Stage::window, declared).size(), 1u);
+  declared.subpixel_rounding = Conventions::Rounding::nearest;
+  declared.subpixel_bits = Conventions::kFloat;
+  EXPECT_TRUE(moved(0, declared).empty());
+  EXPECT_EQ(moved(2, declared).size(), 1u);
+  declared.open = {"subpixel_bits"};
+  EXPECT_TRUE(moved(300, declared).empty());
+  Capture left_out = sound_;
+  left_out.records.triangles[1].v[2].snapped.y += 600;
+  left_out.derived = {"window.snapped"};
+  EXPECT_TRUE(contradictions(left_out).empty());
 }
 
 TEST_F(Contradictions, ColoursThatAreNotTheWinnersFragments) {

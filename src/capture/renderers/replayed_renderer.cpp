@@ -84,7 +84,7 @@ void add_planes_of_records(Capture& c) {
 class ReplayedRenderer : public Renderer {
  public:
   ReplayedRenderer(Capture capture, const Scene& scene, const Conventions& conventions) : capture_(std::move(capture)) {
-    const std::vector<std::string> of_winners = contradictions_of(capture_, Stage::visibility);
+    const std::vector<std::string> of_winners = contradictions_of(capture_, Stage::visibility, conventions);
     if (!of_winners.empty()) capture_.planes.id = {};
     if (scene.frame.stencil == StencilFormat::none) capture_.planes.stencil = {};  // of a buffer that no draw uses
     add_planes_of_records(capture_);
@@ -99,7 +99,7 @@ class ReplayedRenderer : public Renderer {
     }
     contradict(Stage::visibility, of_winners);
     for (const Stage stage : {Stage::window, Stage::coverage, Stage::texture, Stage::shade})
-      contradict(stage, contradictions_of(capture_, stage));
+      contradict(stage, contradictions_of(capture_, stage, conventions));
   }
   RendererInfo info() const override { return info_; }
   Capture capture(const Scene&, const Request&) override { return capture_; }
