@@ -291,7 +291,9 @@ void account(const Reference& r, std::size_t pixels, auto ask, auto put) {
   }
 }
 
-// `conventions`: by which the reference draws the pass; the candidate draws it as it is.
+// `conventions`: by which the reference draws the pass; the candidate draws it as it is. Legal answers, and all of an
+// oracle that is no referee, come by conventions from the pass as it is given; records and planes from that which the
+// conventions alter.
 std::vector<PixelHistory> histories(const Scene& given, const Reference& r, const Conventions& conventions,
                                     const std::vector<glm::ivec2>& pixels) {
   const SceneByConventions seen(given, conventions);
@@ -303,12 +305,14 @@ std::vector<PixelHistory> histories(const Scene& given, const Reference& r, cons
     request.records = kFragmentStages;
     if (info[Stage::coverage].runs) request.records.add(Stage::window);  // it has such triangles
     request.pixels = pixels;
-    request.legal = info.legal;
     request.conventions = conventions;
-    const Capture drawn = r.renderer->capture(pass, request);
+    const bool is_oracle = info.legal && !is_referee(info);
+    const Scene& drawn_pass = is_oracle ? given : pass;
+    Capture drawn = r.renderer->capture(drawn_pass, request);
     std::optional<Capture> all;
-    request.legal = false;
-    if (leaves_out(pass, pixels)) all = r.renderer->capture(without_culling(pass, pixels), request);
+    if (leaves_out(pass, pixels)) all = r.renderer->capture(without_culling(drawn_pass, pixels), request);
+    if (info.legal)
+      drawn.legal = r.renderer->capture(given, {.legal = true, .pixels = pixels, .conventions = conventions}).legal;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       out[i] = history_of(pass, info, drawn, all ? &*all : nullptr, pixels[i]);
       out[i].renderer = r.name;

@@ -5,6 +5,7 @@
 #include "report/text/history_text.h"
 #include "tests/check/judge/fates_scene.h"
 #include "tests/check/judge/judge_fixtures.h"
+#include "tests/oracle/window_answers.h"
 
 namespace plumbline::check {
 namespace {
@@ -171,6 +172,20 @@ TEST_F(HistoryTest, AFragmentThatPassesAndIsNotDrawnIsDiscarded) {
   EXPECT_EQ(both[0].fragments[0].fate, Fate::winner);
   ASSERT_EQ(both[0].notes.size(), 2u);  // the frame has the other
   EXPECT_EQ(both[0].notes[0], "by its fragments the winner is 0, by its frame 6");
+}
+
+// A ramp over x, sampled at pixels' lower left corners: fragments and legal answers are those of one place.
+TEST_F(HistoryTest, ASampleThatIsDeclaredMovesAllOnce) {
+  scene = math::window_scene({{{{0, 0, 0.5f}, {64, 0, 0.5f}, {0, 64, 0.5f}}}}, 64);
+  candidate.on_info = [](RendererInfo& info) {
+    info.profile = Profile::foreign;
+    info.conventions.sample = glm::dvec2(0);
+  };
+  const PixelHistory of_exact = renderers({16, 8}).at(1);
+  ASSERT_EQ(of_exact.fragments.size(), 1u);
+  ASSERT_FALSE(of_exact.legal.empty());
+  EXPECT_FLOAT_EQ(of_exact.legal[0].color.r, 16 / 64.0f);
+  EXPECT_NEAR(of_exact.fragments[0].shaded->r, 16 / 64.0, 1e-6);
 }
 
 TEST_F(HistoryTest, WhatIsNotToldIsSaidWithItsReason) {
