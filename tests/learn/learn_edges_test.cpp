@@ -176,11 +176,31 @@ TEST(LearnEdges, ASampleIsFoundWhereEdgesScatter) {
   const glm::dvec2 aside = learned_off_by(0.02f, 0.4375).sample;
   EXPECT_NEAR(aside.x, 0.4375, 0.01);
   EXPECT_NEAR(aside.y, 0.4375, 0.01);
+  EXPECT_EQ(learned_off_by(0.008f, 0.004).sample, glm::dvec2(0)) << "within the scatter";
   EXPECT_EQ(found.tie_rule, C::TieRule::left_bottom);
   EXPECT_THAT(found.open, testing::IsSupersetOf({"subpixel_bits", "subpixel_rounding"}));
   EXPECT_THAT(found.open, testing::Not(testing::Contains("sample")));
   EXPECT_THAT(found.unexplained, testing::Contains(testing::HasSubstr("go by no grid: they scatter by 0.0")));
   EXPECT_THAT(lost.open, testing::Contains("sample"));
+}
+
+// A mistake at the frame's left side moves the edges of one strip in 16, in eight frames: the others are judged by.
+TEST(LearnEdges, AMistakeAtTheFramesSideIsNamedBesideTheGrid) {
+  Altered renderer(pipeline::make_pipeline(), [](Capture& c) {
+    for (int y = 0; y < c.planes.color.height(); ++y) c.planes.color(0, y) = glm::vec4(0, 0, 0, 1);
+  });
+  const Learned found = learn(renderer);
+  EXPECT_EQ(found.conventions.subpixel_bits, 8);
+  EXPECT_EQ(found.conventions.sample, glm::dvec2(0.5));
+  EXPECT_THAT(found.conventions.unexplained,
+              testing::Contains(testing::HasSubstr(" of 256 edges lie elsewhere: pixels are lost or added there")));
+}
+
+TEST(LearnEdges, ASampleAtNoSixteenthOfAPixelIsAFinding) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) { scene.frame.pass.shift += 0.5 - 225 / 256.0; };
+  EXPECT_THAT(learn(renderer).conventions.unexplained,
+              testing::Contains(testing::HasSubstr("the sample is at 0.8789, 0.8789, no multiple of 1/16 pixel")));
 }
 
 TEST(LearnEdges, RenderersThatDropBackFacesHaveAGrid) {
