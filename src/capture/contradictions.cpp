@@ -149,9 +149,9 @@ SnappedRange places_of(double p_win, int axis, int length, const Conventions& co
   // A grid that is finer than window.snapped, or none, is rounded to it in any way.
   const bool is_fine = conventions.subpixel_bits == Conventions::kFloat || conventions.subpixel_bits > 8;
   if (is_fine) return {std::floor(steps - error), std::ceil(steps + error)};
-  const bool is_beyond = p_win < 0 || p_win > length;
+  const double from_side = p_win - 0.5 + conventions.sample[axis];  // in the renderer's own window
+  const bool is_up = from_side < 0, is_beyond = is_up || from_side > length;
   const double cell = is_beyond ? std::ldexp(kSubpixel, -conventions.subpixel_bits) : 0;
-  const bool is_up = p_win < 0;
   return {snapped_range(conventions, axis, steps - error).least - (is_up ? 0 : cell),
           snapped_range(conventions, axis, steps + error).most + (is_up ? cell : 0)};
 }

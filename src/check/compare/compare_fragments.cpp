@@ -139,20 +139,21 @@ std::size_t edges_near(const std::array<glm::dvec2, 3>& corners, glm::dvec2 p, d
 // and is_owned() is false.
 template <class Open>
 Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions, glm::dvec2 sample, glm::dvec2 frame, Open open) {
+                                    const Conventions& conventions, SnappedBy snapped_by, glm::dvec2 sample,
+                                    glm::dvec2 frame, Open open) {
   constexpr double kOfExact = std::numbers::sqrt2 / 2 / kSubpixel;  // [pixels] as far as exact moves a corner
-  const bool by_one_grid = conventions.subpixel_bits == 8;
+  const bool by_one_grid = conventions.subpixel_bits >= 0 && conventions.subpixel_bits <= 8;
   std::optional<SharedEdges> shared;  // once there is a fragment to ask about
   const auto is_covered = [&](Covered c, std::uint32_t triangle) {
     c.triangle = triangle;
     return std::ranges::binary_search(candidate.covered, draw_order(c), {},
                                       [](const Covered& o) { return draw_order(o); });
   };
-  // Number of the triangle's edges within reach of p: their displacement by the candidate and, by_both, by exact. On
-  // one grid, both sides snap a corner to one position.
+  // Number of the triangle's edges within reach of p: their displacement by the candidate and, by_both, by exact. On a
+  // grid that window.snapped holds, both sides have a corner at one position.
   const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
     const WindowTriangle<double>& t = candidate.triangles[triangle];
-    if (by_one_grid && !has_corner_between_places(t, conventions, SnappedBy::conventions))
+    if (by_one_grid && !has_corner_between_places(t, conventions, snapped_by))
       return edges_near(window_corners(t, true), p, of_steps(t, conventions, frame));
     return edges_near(window_corners(t, false), p, moved(t, conventions, frame) + (by_both ? kOfExact : 0));
   };
@@ -171,14 +172,16 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
 }  // namespace
 
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
-                                         const Conventions& conventions, glm::dvec2 sample, glm::dvec2 frame) {
-  return covered_except_edges_of(candidate, reference, conventions, sample, frame, [](const auto&) { return true; });
+                                         const Conventions& conventions, glm::dvec2 sample, glm::dvec2 frame,
+                                         SnappedBy snapped_by) {
+  return covered_except_edges_of(candidate, reference, conventions, snapped_by, sample, frame,
+                                 [](const auto&) { return true; });
 }
 
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions, SnappedBy snapped_by, glm::dvec2 frame) {
   return covered_except_edges_of(
-      candidate, reference, conventions, glm::dvec2(0.5), frame,
+      candidate, reference, conventions, SnappedBy::conventions, glm::dvec2(0.5), frame,
       [&](const WindowTriangle<double>& t) { return has_corner_between_places(t, conventions, snapped_by); });
 }
 

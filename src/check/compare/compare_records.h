@@ -69,15 +69,15 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// compare_covered() for a candidate whose tie rule or grid is not the dialect's. An extra or missing fragment is
 /// ambiguous where the sample lies within d [pixels] of an edge of the candidate's triangle. d is the sum of the edge's
 /// displacements by the declared grid (no grid: by rounding in float), by exact's snapping to 1/256 pixel, and by
-/// stepping in float where depth_arithmetic declares stepping. On a declared grid of 1/256 pixel the first two are 0,
-/// unless a corner lies between two grid positions.
+/// stepping in float where depth_arithmetic declares stepping. On a declared grid of whole to 1/256 pixels the first two
+/// are 0, unless has_corner_between_places().
 /// A fragment differs nevertheless where the sample lies on an edge that two triangles share (shared_edges.h), near no
 /// other edge of these, and is not in exactly one of the two (inclusive: nor in both; exclusive: nor in neither).
 /// `sample`: sample position [pixels from the pixel's corner of smallest coordinates]. `frame`: its size [pixels], in
 /// whose rows and columns edges are stepped.
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
                                          const Conventions& conventions, glm::dvec2 sample = glm::dvec2(0.5),
-                                         glm::dvec2 frame = kNoSides);
+                                         glm::dvec2 frame = kNoSides, SnappedBy snapped_by = SnappedBy::conventions);
 /// True if the candidate may have snapped a corner to either of two grid positions: its records hold no snapped
 /// positions, and a corner lies within 4 u of the middle between two grid positions (rounding to the nearest) or within
 /// kOfFixedPoint of a grid position (rounding down or up).

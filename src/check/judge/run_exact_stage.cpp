@@ -174,7 +174,8 @@ void compare_coverage_stage(const SceneJudgement& c, const Capture& made, const 
     return c.add(name, stage, compare_covered_by_rule(mine, theirs, c.conventions, c.candidate.snapped_by, frame));
   if (covers_otherwise(c) && are_counted) {
     const glm::dvec2 sample = 0.5 + glm::dvec2(sample_offset(c.scene.frame)) / double{kSubpixel};
-    return c.add(name, stage, compare_covered_except_edges(mine, theirs, c.conventions, sample, frame));
+    return c.add(name, stage,
+                 compare_covered_except_edges(mine, theirs, c.conventions, sample, frame, c.candidate.snapped_by));
   }
   Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
   if (c.candidate.planes.id_sum.empty())
