@@ -28,9 +28,27 @@ double to_window(C::DepthRange range, double z) {
 
 }  // namespace
 
+bool is_opaque(const Scene& scene) {
+  const auto is_one = [](const glm::vec4& color) { return color.a == 1; };
+  const auto has_opaque_colors = [&](const Mesh& mesh) { return std::ranges::all_of(mesh.colors, is_one); };
+  const auto has_opaque_texels = [&](const Texture& texture) {
+    const Sampler& s = texture.sampler;
+    const bool has_border = s.wrap_s == Wrap::clamp_to_border || s.wrap_t == Wrap::clamp_to_border;
+    if (has_border && !is_one(source_components(texture.format, s.border))) return false;
+    return std::ranges::all_of(texture.levels,
+                               [&](const TextureLevel& level) { return std::ranges::all_of(level.texels, is_one); });
+  };
+  const auto stays_opaque = [&](const Draw& draw) {
+    return is_one(draw.material.diffuse) && (!draw.back_material || is_one(draw.back_material->diffuse)) &&
+           !draw.merge.blend && !draw.merge.logic_op;
+  };
+  return is_one(scene.frame.clear_color) && std::ranges::all_of(scene.meshes, has_opaque_colors) &&
+         std::ranges::all_of(scene.textures, has_opaque_texels) && std::ranges::all_of(scene.draws, stays_opaque);
+}
+
 SceneByConventions::SceneByConventions(const Scene& scene, const Conventions& c) : scene_(scene) {
-  const bool centred = c.sample == glm::dvec2(0.5);
-  if (centred && c.depth_planes == C::DepthPlanes::cut && c.provoking_vertex == C::Provoking::last &&
+  const bool centred = c.sample == glm::dvec2(0.5), masks_alpha = c.alpha == C::Alpha::none && !is_opaque(scene);
+  if (centred && !masks_alpha && c.depth_planes == C::DepthPlanes::cut && c.provoking_vertex == C::Provoking::last &&
       c.depth_format == C::Depth::as_asked) {
     return;
   }
@@ -39,6 +57,9 @@ SceneByConventions::SceneByConventions(const Scene& scene, const Conventions& c)
   if (c.depth_planes == C::DepthPlanes::clamped) out.depth_clamp = true;
   if (c.provoking_vertex == C::Provoking::first) rotate_corners(out);
   out.frame.depth = depth_format_of(scene.frame, c);
+  if (!masks_alpha) return;
+  out.frame.clear_color.a = 1;
+  for (Draw& draw : out.draws) draw.merge.color_mask.a = false;
 }
 
 DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& c) {
@@ -71,6 +92,9 @@ void to_dialect(const Conventions& c, Capture& capture) {
   move_to_centres(c.sample, capture.records.triangles);
   for (double& z : capture.planes.depth.values()) z = to_window(c.depth_range, z);
   for (double& z : capture.records.depth) z = to_window(c.depth_range, z);
+  if (c.alpha == C::Alpha::none) {
+    for (glm::vec4& color : capture.planes.color.values()) color.a = 1;
+  }
   if (c.rows == C::Rows::from_bottom) return;
   Planes& p = capture.planes;
   turn_over(p.count), turn_over(p.id_sum), turn_over(p.id), turn_over(p.texel), turn_over(p.shaded);

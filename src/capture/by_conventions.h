@@ -15,7 +15,8 @@ namespace plumbline {
 /// else refers to `scene`, which must outlive this object.
 ///
 /// `sample`: the picture is shifted by 1/2 - sample [pixels] (Pass::shift). `provoking_vertex` first: the corners of
-/// each triangle are rotated, so that the first becomes the last. `depth_planes` clamped: GL_DEPTH_CLAMP.
+/// each triangle are rotated, so that the first becomes the last. `depth_planes` clamped: GL_DEPTH_CLAMP. `alpha` none:
+/// the frame's alpha is cleared to 1 and masked, unless the scene is_opaque().
 /// `depth_format`: the frame's. The oracles handle a view volume of [0,w] in z (reference/arithmetic/project.cpp).
 class SceneByConventions {
  public:
@@ -32,6 +33,10 @@ class SceneByConventions {
 
 /// The depth buffer's format: the convention's, or the frame's where that is as_asked.
 DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& conventions);
+
+/// Whether the frame's alpha is 1 whatever is drawn: alphas of the clear colour, of vertices, materials, texels and
+/// borders are 1, and no draw blends or has a logic op.
+bool is_opaque(const Scene& scene);
 
 /// How colours of vertices are interpolated.
 inline Conventions::Interpolation interpolation_of_colors(const Conventions& conventions) {

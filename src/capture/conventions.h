@@ -37,6 +37,7 @@ struct Conventions {
   enum class ColorNumbers { in_float, in_codes };
   enum class Magnified { up_to_half, up_to_zero };
   enum class HalfWay { down, either };
+  enum class Alpha { stored, none };
 
   /// Sample position of coverage, depth and attributes [pixels from the pixel's lower left corner].
   glm::dvec2 sample{0.5};
@@ -73,6 +74,7 @@ struct Conventions {
   LevelOfDetail level_of_detail = LevelOfDetail::per_pixel;
   Magnified magnified = Magnified::up_to_half;
   HalfWay half_way_level = HalfWay::down;
+  Alpha alpha = Alpha::stored;
 
   /// Names of the conventions that plumb learn could not find. Their values are OpenGL's, but that of depth_arithmetic,
   /// where no depth is shown, is in_float_from_origin: the arithmetic of the largest errors.
@@ -131,6 +133,8 @@ template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Magnified> = {"up_to_half", "up_to_zero"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::HalfWay> = {"down", "either"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Alpha> = {"stored", "none"};
 
 /// v as a whole number: half to even (nearest), floor (down) or ceil (up). NaN stays NaN.
 double rounded(Conventions::Rounding rounding, double v);
@@ -212,6 +216,7 @@ void each_choice(Visit visit) {
   visit(ConventionWords{"magnified", "levels of detail at which a texture is magnified", true}, &C::magnified);
   visit(ConventionWords{"half_way_level", "the level nearest to a level of detail half way between two", true},
         &C::half_way_level);
+  visit(ConventionWords{"alpha", "whether the frame has an alpha, which is 1 where it has none", true}, &C::alpha);
 }
 
 /// Calls visit(words, member) for each convention that is a number of bits, or "float".

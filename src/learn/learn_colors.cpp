@@ -188,6 +188,23 @@ void learn_vertex_colors(Prober& prober) {
   prober.found(words, name_of(c.vertex_colors), evidence);
 }
 
+// Two rectangles beside each other, of alphas 1/4 and 3/4, which may be encoded as colours are. A frame without alpha
+// holds one number for both.
+void learn_alpha(Prober& prober) {
+  constexpr double kAlike = 1.5 / 255, kApart = 0.25;
+  const ConventionWords words = words_of("alpha");
+  Scene scene = probe_frame("alpha", 16, 16);
+  add_triangles(scene, rectangle({0, 0}, {8, 16}, kFlatDepth, {1, 1, 1, 0.25f}));
+  add_triangles(scene, rectangle({8, 0}, {16, 16}, kFlatDepth, {1, 1, 1, 0.75f}));
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  const double first = color(5, 4).a, second = color(12, 4).a;  // not on the diagonals
+  const std::string evidence = fmt::format("alphas of 1/4 and 3/4 are left as {:.4g} and {:.4g}", first, second);
+  const bool are_stored = second - first >= kApart;
+  if (!are_stored && !(std::abs(first - second) <= kAlike)) return prober.fits_none(words, evidence);
+  prober.learned.conventions.alpha = are_stored ? C::Alpha::stored : C::Alpha::none;
+  prober.found(words, name_of(prober.learned.conventions.alpha), evidence);
+}
+
 // Alphas of 128.2 codes against 127.8, and of 128.4 against 128.1: greater as floats, equal as nearest codes. Codes
 // rounded down or up differ in the first pair alone. 128.1 passes against 128.4 if the reference alone is truncated.
 void learn_alpha_test(Prober& prober) {

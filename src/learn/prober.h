@@ -91,6 +91,7 @@ void learn_interpolation(Prober& prober);
 void learn_corners(Prober& prober);
 void learn_depth_corners(Prober& prober);
 void learn_provoking_vertex(Prober& prober);
+void learn_alpha(Prober& prober);
 void learn_alpha_test(Prober& prober);
 void learn_blending(Prober& prober);
 void learn_fog(Prober& prober);

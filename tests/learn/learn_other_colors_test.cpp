@@ -86,6 +86,19 @@ pipeline::Color<float> blend_in_codes(const Blend& state, const pipeline::Color<
           blended(source.a, stored.a)};
 }
 
+TEST(LearnAlpha, AFrameMayHaveNone) {
+  const auto found = [](auto alpha_of) {
+    return learned(std::make_unique<Altered>(pipeline::make_pipeline(), [=](Capture& c) {
+      for (glm::vec4& color : c.planes.color.values()) color.a = alpha_of(color.a);
+    }));
+  };
+  EXPECT_EQ(found([](float a) { return a; }).alpha, C::Alpha::stored);
+  EXPECT_EQ(found([](float) { return 1.0f; }).alpha, C::Alpha::none);
+  EXPECT_EQ(found([](float) { return 0.0f; }).alpha, C::Alpha::none);
+  EXPECT_THAT(found([](float a) { return 1 - a; }).unexplained,
+              testing::Contains(testing::HasSubstr("alpha: alphas of 1/4 and 3/4 are left as 0.749")));
+}
+
 TEST(LearnBlending, ProductsMayBeRoundedDownAlone) {
   const auto found = [](auto blend) {
     pipeline::Stages stages = pipeline::production_stages();

@@ -338,20 +338,20 @@ bool differs_from_opengl(const Scene& scene, const Conventions& conventions, Sta
   const bool has_codes = has_codes_of_vertices(scene.frame, conventions);
   if (stage <= Stage::clip)
     return (stage == Stage::clip && has_other_volume(conventions)) || (stage >= Stage::light && has_codes);
-  const auto is_moved = [](const Draw& draw) { return draw.polygon_offset.units != 0; };
+  const bool is_offset = std::ranges::any_of(scene.draws, [](const Draw& d) { return d.polygon_offset.units != 0; });
   const auto unit = [&](const Conventions& by) {
     const bool of_floats = scene.frame.depth == DepthFormat::z32f;
     return of_floats                               ? by.float_offset_unit
            : scene.frame.depth == DepthFormat::z16 ? by.offset_unit.y
                                                    : by.offset_unit.x;
   };
-  const bool is_other_unit = unit(conventions) != unit(C());
-  if (stage >= Stage::depth && is_other_unit && std::ranges::any_of(scene.draws, is_moved)) return true;
+  if (stage >= Stage::depth && is_offset && unit(conventions) != unit(C())) return true;
   if (stage >= Stage::shade && stage != Stage::visibility && fogs_by_vertices(scene, conventions)) return true;
   const bool has_colors = stage >= Stage::attributes && (stage != Stage::visibility || tests_alpha(scene));
   if (has_colors && (has_codes || has_codes_of_fragments(scene.frame, conventions) ||
                      interpolation_of_colors(conventions) != conventions.interpolation))
     return true;
+  if (stage >= Stage::merge && conventions.alpha == C::Alpha::none && !is_opaque(scene)) return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
          conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
 }

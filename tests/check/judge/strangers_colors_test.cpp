@@ -7,7 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "capture/by_conventions.h"
 #include "tests/check/judge/frame_verdict.h"
+#include "tests/check/judge/judge_fixtures.h"
 #include "tests/learn/other_colors.h"
 #include "tests/suite.h"
 
@@ -26,6 +28,44 @@ C with_factors(C::FogFactor declared) {
 }
 SceneVerdict verdict_of(const std::string& scene, std::unique_ptr<Renderer> renderer, C::FogFactor declared) {
   return verdict_of(scene, std::move(renderer), with_factors(declared));
+}
+
+// A frame of red, green and blue: its alpha is 1 to blending, and what stands in its place is not judged.
+TEST(StrangersAlpha, MayBeNoneWhereThatIsDeclared) {
+  C none;
+  none.alpha = C::Alpha::none;
+  const auto drawn = [](const std::string& name, float blue, float alpha) {
+    auto out = std::make_unique<Changed>(pipeline::make_pipeline());
+    out->on_capture = [=](Capture& c) {
+      for (glm::vec4& color : c.planes.color.values()) color.b += blue, color.a = alpha;
+    };
+    return std::pair(suite_scene(name), std::move(out));
+  };
+  const auto verdict = [&](auto drawing, const C& declared) {
+    return verdict_of(drawing.first, std::move(drawing.second), declared);
+  };
+  for (const char* name : {"light/color_material_flat", "light/all_at_once"}) {
+    EXPECT_TRUE(is_right(verdict(drawn(name, 0, 1), none))) << name;
+    EXPECT_TRUE(is_wrong(verdict(drawn(name, 0, 1), C()))) << name;
+    EXPECT_TRUE(is_wrong(verdict(drawn(name, 2.0f / 255, 1), none))) << name;
+  }
+}
+
+TEST(StrangersAlpha, IsOneToBlendingWhereThereIsNone) {
+  Scene scene = suite_scene("first_triangles/draw_order");
+  scene.draws[1].merge.blend = Blend{{BlendFactor::destination_alpha, BlendFactor::zero, BlendEquation::add},
+                                     {BlendFactor::zero, BlendFactor::one, BlendEquation::add},
+                                     glm::vec4(0)};
+  C none;
+  none.alpha = C::Alpha::none;
+  const Scene blends = scene;
+  scene.frame.clear_color.a = 0.5f;
+  EXPECT_FALSE(is_opaque(scene));
+  EXPECT_FALSE(is_opaque(blends));
+  EXPECT_TRUE(is_opaque(suite_scene("first_triangles/draw_order")));
+  const SceneByConventions seen(scene, none);
+  EXPECT_EQ(seen->frame.clear_color.a, 1);
+  for (const Draw& draw : seen->draws) EXPECT_FALSE(draw.merge.color_mask.a);
 }
 
 TEST(StrangersFog, FactorsMayBeThoseOfVerticesWhereThatIsDeclared) {
