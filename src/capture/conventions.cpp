@@ -72,11 +72,20 @@ bool settles_grid(const Conventions& c) {
 
 bool settles_ties(const Conventions& c) { return c.tie_rule != Conventions::TieRule::any && settles_grid(c); }
 
-std::vector<std::string> mistaken(const Conventions& conventions) {
+namespace {
+
+// A mistake, and the convention that it is of; empty: of none.
+struct Mistake {
+  std::string_view name;
+  std::string line;
+};
+
+std::vector<Mistake> mistakes_of(const Conventions& conventions) {
   const Conventions expected;
-  std::vector<std::string> out;
+  std::vector<Mistake> out;
   const auto add = [&](const ConventionWords& words, std::string_view found, std::string_view of_dialect) {
-    out.push_back(fmt::format("convention {}: {}, expected {} ({})", words.name, found, of_dialect, words.meaning));
+    out.push_back(
+        {words.name, fmt::format("convention {}: {}, expected {} ({})", words.name, found, of_dialect, words.meaning)});
   };
   if (conventions.sample != expected.sample)
     add(kSampleWords, sample_text(conventions.sample), sample_text(expected.sample));
@@ -89,17 +98,37 @@ std::vector<std::string> mistaken(const Conventions& conventions) {
   using enum Conventions::TieRule;
   if (conventions.tie_rule == inclusive || conventions.tie_rule == exclusive) {
     out.push_back(
-        fmt::format("convention tie_rule: {}, expected each sample on a shared edge in one triangle: it is in {}",
-                    name_of(conventions.tie_rule), conventions.tie_rule == inclusive ? "both" : "none"));
+        {"tie_rule",
+         fmt::format("convention tie_rule: {}, expected each sample on a shared edge in one triangle: it is in {}",
+                     name_of(conventions.tie_rule), conventions.tie_rule == inclusive ? "both" : "none")});
   }
   if (conventions.subpixel_bits != Conventions::kFloat && conventions.subpixel_bits < 4)
-    out.push_back(fmt::format("convention subpixel_bits: {}, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)",
-                              conventions.subpixel_bits));
+    out.push_back({"subpixel_bits",
+                   fmt::format("convention subpixel_bits: {}, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)",
+                               conventions.subpixel_bits)});
   if (std::min(conventions.offset_unit.x, conventions.offset_unit.y) < 1)
     out.push_back(
-        fmt::format("convention offset_unit: {:.4g}, {:.4g}, expected 1 or more: a unit makes depths differ ({})",
-                    conventions.offset_unit.x, conventions.offset_unit.y, "OpenGL 2.1, 3.5.5"));
-  for (const std::string& line : conventions.unexplained) out.push_back("no convention: " + line);
+        {kOffsetWords.name,
+         fmt::format("convention offset_unit: {:.4g}, {:.4g}, expected 1 or more: a unit makes depths differ ({})",
+                     conventions.offset_unit.x, conventions.offset_unit.y, "OpenGL 2.1, 3.5.5")});
+  for (const std::string& line : conventions.unexplained) out.push_back({"", "no convention: " + line});
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> mistaken(const Conventions& conventions) {
+  std::vector<std::string> out;
+  for (Mistake& mistake : mistakes_of(conventions)) out.push_back(std::move(mistake.line));
+  return out;
+}
+
+std::vector<std::string> not_accepted(const Conventions& conventions) {
+  std::vector<std::string> out;
+  for (Mistake& mistake : mistakes_of(conventions)) {
+    if (std::ranges::find(conventions.accepted, mistake.name) == conventions.accepted.end())
+      out.push_back(std::move(mistake.line));
+  }
   return out;
 }
 

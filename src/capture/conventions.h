@@ -81,6 +81,8 @@ struct Conventions {
   std::vector<std::string> open;
   /// Findings of plumb learn that no convention explains, a sentence each. mistaken() lists each of them as a mistake.
   std::vector<std::string> unexplained;
+  /// Names of conventions whose mistakes the renderer's author accepts: not_accepted() leaves them out.
+  std::vector<std::string> accepted;
 
   static constexpr int kFloat = -1;
   bool operator==(const Conventions&) const = default;
@@ -247,6 +249,8 @@ std::string sample_text(const glm::dvec2& sample);
 /// Conventions that are mistakes, a line each: "convention rows: from_top, expected from_bottom (the order of the
 /// picture's rows)"; then what no convention explains: "no convention: one scene drawn twice differs".
 std::vector<std::string> mistaken(const Conventions& conventions);
+/// Lines of mistaken() by which a run fails: those of conventions that `accepted` does not name.
+std::vector<std::string> not_accepted(const Conventions& conventions);
 
 /// Conventions of a renderer that declares none: OpenGL's defaults, but the alpha test may use either arithmetic (2.1
 /// specification, 4.1.4), and levels of detail may be approximated (3.8.8).

@@ -364,7 +364,7 @@ int campaign(const CampaignOptions& o) {
   }
   const std::string findings = leave_findings(folder / "findings", results.found, rules);
   write_file(folder / "results.json", json_of(results, terms));
-  std::vector<std::string> mistakes = mistaken(conventions_of(rules.options.candidate.conventions));
+  std::vector<std::string> mistakes = not_accepted(conventions_of(rules.options.candidate.conventions));
   for (std::string& line : mistakes) line += '\n';
   fmt::print("{}{}{}{}judging: {:.1f} ms a scene\n", findings, text_of(results), fmt::join(mistakes, ""),
              rules.options.candidate.command.empty() ? "" : convention_notes(rules.options.candidate.conventions),

@@ -231,7 +231,8 @@ int check(const CheckOptions& given) {
   judge_all(scenes, rules, run);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (is_whole(o, run.verdicts)) run.head.failures = check::of_no_scene(rules.expectations, run.verdicts);
-  for (const std::string& line : mistaken(conventions_of(o.candidate.conventions))) run.head.failures.push_back(line);
+  for (const std::string& line : not_accepted(conventions_of(o.candidate.conventions)))
+    run.head.failures.push_back(line);
   const bool holds = report::all_hold(run.verdicts) && run.head.failures.empty();
   const bool outside = !o.candidate.command.empty();
   const std::string summary = summary_of(rules, run, holds, seconds);

@@ -213,7 +213,7 @@ DiagnosisAnswer diagnose_here(Subject& subject, const Watch& watch) {
                                  open + holes + faults + history_text);
     out += fmt::format("page: {}\n", (std::filesystem::absolute(o.report) / "index.html").lexically_normal().string());
   }
-  const bool of_conventions_alone = holds(diagnosis) && !mistaken(candidate->info().conventions).empty();
+  const bool of_conventions_alone = holds(diagnosis) && !not_accepted(candidate->info().conventions).empty();
   if (of_conventions_alone) out += "the stages hold; FAILED by the mistakes in the conventions\n";
   return {holds(diagnosis) && !of_conventions_alone ? kHolds : kDiffers, out};
 }

@@ -95,6 +95,16 @@ void write_pictures(const std::string& folder, const learn::Learned& learned) {
   }
 }
 
+// Mistakes that the file, which is about to be written anew, accepts; none where it is no file of conventions.
+std::vector<std::string> accepted_before(const std::string& file) {
+  if (file.empty() || !std::filesystem::exists(file)) return {};
+  try {
+    return read_conventions(file).accepted;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 int learn(const LearnOptions& o) {
@@ -115,10 +125,11 @@ int learn(const LearnOptions& o) {
   }
   if (std::string state = kept_state(o.candidate, renderer.drawn()); !state.empty())
     learned.conventions.unexplained.push_back(std::move(state));
+  learned.conventions.accepted = accepted_before(o.output);
   fmt::print("{}", learn::learned_text(learned));
   if (!o.output.empty()) write_file(o.output, conventions_text(learned.conventions));
   if (!o.pictures.empty()) write_pictures(o.pictures, learned);
-  return mistaken(learned.conventions).empty() ? kHolds : kDiffers;
+  return not_accepted(learned.conventions).empty() ? kHolds : kDiffers;
 }
 
 }  // namespace plumbline::cli

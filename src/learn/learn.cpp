@@ -109,7 +109,7 @@ std::string learned_text(const Learned& learned) {
   std::string out = fmt::format("{:<18} {:<14} {}\n", "convention", "found", "evidence");
   for (const LearnedRow& row : learned.rows)
     out += fmt::format("{:<18} {:<14} {}\n", row.name, row.value, row.evidence);
-  for (const std::string& line : mistaken(learned.conventions)) out += fmt::format("{}\n", line);
+  for (const std::string& line : not_accepted(learned.conventions)) out += fmt::format("{}\n", line);
   return out;
 }
 

@@ -109,6 +109,24 @@ TEST_F(Cli, AMistakenConventionOfASuiteEnds1WithOneLine) {
   EXPECT_TRUE(run.says("convention color_rounding: down, expected nearest (how colours become codes)\n")) << run.text;
 }
 
+TEST_F(Cli, AMistakeThatIsAcceptedFailsNoRun) {
+  test::write_text(at("c.json"), declared(R"("offset_unit": [0.5, 0.5], "accepted": ["offset_unit"])"));
+  const std::string by = kLearnedProgram + " --conventions " + at("c.json");
+  const Outcome check = plumb("check " + kScenes + "cull" + by);
+  EXPECT_EQ(check.code, 0) << check.text;
+  EXPECT_FALSE(check.says("convention offset_unit")) << check.text;
+  EXPECT_TRUE(check.says("accepted by " + at("c.json") + ", if mistaken: offset_unit\n")) << check.text;
+  EXPECT_EQ(plumb("diagnose " + kScenes + "cull/both_windings.json" + by).code, 0);
+  test::write_text(at("c.json"), declared(R"("offset_unit": [0.5, 0.5], "accepted": ["rows"])"));
+  EXPECT_EQ(plumb("check " + kScenes + "cull" + by).code, 1) << "another one is accepted";
+  EXPECT_EQ(plumb("learn" + kLearnedProgram + " -o " + at("c.json")).code, 0);
+  EXPECT_NE(test::text_of(at("c.json")).find(R"("accepted": ["rows"])"), std::string::npos) << "learn keeps the list";
+  test::write_text(at("c.json"), declared(R"("accepted": ["colour_rounding"])"));
+  const Outcome unknown = plumb("check " + kScenes + "cull" + by);
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_TRUE(unknown.says(at("c.json") + ": at \"/accepted/0\": expected the name of a convention")) << unknown.text;
+}
+
 TEST_F(Cli, AFailureIsRepeatedByTheConventionsToo) {
   test::write_text(at("c.json"), declared(R"("depth_range": "one_to_zero")"));
   const Outcome run = plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json"));
@@ -125,6 +143,7 @@ TEST_F(Cli, WhatLearnLeftUnexplainedIsAFindingOfCheckAndDiagnose) {
   EXPECT_EQ(check.code, 1) << check.text;
   EXPECT_TRUE(check.says("no convention: one scene drawn twice differs\n")) << check.text;
   EXPECT_TRUE(check.says("the scenes hold: FAILED by conventions or expectations alone\n")) << check.text;
+  EXPECT_FALSE(check.says("may be others than")) << "plumb learn wrote the file: " << check.text;
   EXPECT_TRUE(check.says("open in " + at("c.json") + ", and judged as OpenGL's: blending\n"))
       << "texture_bits has got a value, and of tie_rule another line tells: " << check.text;
   const Outcome diagnose = plumb("diagnose " + kSharedEdges + by);

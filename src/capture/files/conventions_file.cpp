@@ -43,7 +43,7 @@ Conventions read_conventions(const std::filesystem::path& path) {
   each_choice([&](const ConventionWords& words, auto) { names.push_back(words.name); });
   each_number_of_bits([&](const ConventionWords& words, auto) { names.push_back(words.name); });
   std::vector<std::string_view> keys = names;
-  keys.insert(keys.end(), {"format", "version", "open", "unexplained"});
+  keys.insert(keys.end(), {"format", "version", "open", "unexplained", "accepted"});
   root.require_format(kConventionsFormat);
   root.only(keys);
   root["version"].integer(1, 1);
@@ -63,12 +63,16 @@ Conventions read_conventions(const std::filesystem::path& path) {
     if (out.subpixel_bits == Conventions::kFloat && node && node->text() == "snapped")
       node->refuse("another value than snapped: subpixel_bits is \"float\", nothing is snapped");
   }
-  if (const auto node = root.find("open")) {
+  const auto read_names = [&](const char* key, std::vector<std::string>& into) {
+    const auto node = root.find(key);
+    if (!node) return;
     for (const JsonNode& name : node->elements(0, names.size())) {
       if (std::ranges::find(names, name.text()) == names.end()) name.refuse("the name of a convention");
-      out.open.push_back(name.text());
+      into.push_back(name.text());
     }
-  }
+  };
+  read_names("open", out.open);
+  read_names("accepted", out.accepted);
   if (const auto node = root.find("unexplained")) {
     for (const JsonNode& line : node->elements(0, kMostLines)) {
       if (std::ranges::any_of(line.text(), is_control)) line.refuse("a line without control characters");
@@ -90,7 +94,8 @@ std::string conventions_text(const Conventions& c) {
   each_choice([&](const ConventionWords& words, auto member) {
     out += fmt::format(",\n \"{}\": \"{}\"", words.name, name_of(c.*member));
   });
-  return out + text_array("open", c.open) + text_array("unexplained", c.unexplained) + "}\n";
+  return out + text_array("open", c.open) + text_array("unexplained", c.unexplained) +
+         text_array("accepted", c.accepted) + "}\n";
 }
 
 }  // namespace plumbline

@@ -235,6 +235,8 @@ std::string convention_notes(const std::string& file) {
     return !is_opengls(conventions, name) || (name == "tie_rule" && !settles_ties(conventions));
   });
   if (!open.empty()) out += fmt::format("open in {}, and judged as OpenGL's: {}\n", file, fmt::join(open, ", "));
+  if (!conventions.accepted.empty())
+    out += fmt::format("accepted by {}, if mistaken: {}\n", file, fmt::join(conventions.accepted, ", "));
   if (!settles_ties(conventions))
     out += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
                        file.empty() ? "no tie rule is declared: plumb learn"
@@ -246,6 +248,8 @@ std::string convention_notes(const std::string& file) {
 }
 
 std::string hint_of_conventions(const std::string& file) {
+  if (const Conventions declared = conventions_of(file); !declared.open.empty() || !declared.unexplained.empty())
+    return "";  // plumb learn wrote the file
   const std::string judged_by = file.empty() ? "OpenGL's" : "those of " + file;
   return fmt::format(
       "the renderer's own conventions (grid, tie rule, roundings, corners) may be others than {}:\n"
