@@ -81,10 +81,14 @@ bool is_at_side(const PixelSite& site, double delta) {
 }
 
 /// True if a cut may make an edge within `delta` [pixels] of the sample that the tie rule takes from the triangle.
-/// `at_diagonal`: is_at_diagonal(), whose samples an exclusive rule takes.
+/// `at_diagonal`: is_at_diagonal(), whose samples an exclusive rule takes. An inclusive rule takes none where the grid
+/// puts cut corners back onto the side; floats may leave them beside it.
 bool is_at_cut(const PixelSite& site, bool at_diagonal, double delta) {
-  const Conventions::TieRule rule = site.scene.conventions.tie_rule;
-  if (!site.t.cut || rule == Conventions::TieRule::inclusive) return false;
+  const Conventions& c = site.scene.conventions;
+  const Conventions::TieRule rule = c.tie_rule;
+  const bool is_put_back =
+      c.subpixel_bits != Conventions::kFloat && c.subpixel_rounding == Conventions::Rounding::nearest;
+  if (!site.t.cut || (rule == Conventions::TieRule::inclusive && is_put_back)) return false;
   return (rule == Conventions::TieRule::exclusive && at_diagonal) || is_at_side(site, delta);
 }
 

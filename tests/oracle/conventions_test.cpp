@@ -239,6 +239,26 @@ TEST(OracleConventions, WithoutPerspectiveColoursGoByTheWindow) {
   EXPECT_NEAR(legal(scene, {}).at(16, 16)[0].color.r, (s / 16) / ((1 - s) / 2 + s / 16), 1e-5);
 }
 
+// A cut at the frame's side, where pixels' lower left corners are sampled: float may leave it beside the side, where
+// even an inclusive rule takes no sample on the side; a grid puts it back.
+TEST(OracleConventions, SamplesOnASideThatCutsAreOpenWithoutAGrid) {
+  const Scene scene = window_scene({{{{-20, 4.25f, 0.5f}, {25, 10.25f, 0.5f}, {-20, 28.25f, 0.5f}}}});
+  const auto certain = [&](C::TieRule rule, int bits) {
+    C c;
+    c.sample = glm::dvec2(0);
+    c.tie_rule = rule;
+    c.subpixel_bits = bits;
+    const Legal of = legal(scene, c);
+    EXPECT_GE(of.possible(0, 14), 1u);
+    EXPECT_EQ(of.certain(6, 14), 1u);
+    return of.certain(0, 14);
+  };
+  EXPECT_EQ(certain(C::TieRule::inclusive, 8), 1u);
+  EXPECT_EQ(certain(C::TieRule::inclusive, C::kFloat), 0u);
+  EXPECT_EQ(certain(C::TieRule::left_bottom, 8), 1u);
+  EXPECT_EQ(certain(C::TieRule::exclusive, 8), 0u);
+}
+
 // Samples on a diagonal of a cut triangle are in both pieces by an inclusive rule; which diagonal is unknown.
 TEST(OracleConventions, AnInclusiveRuleCoversByBothPiecesBesideADiagonal) {
   const Scene scene = window_scene({{glm::vec3(-20, -20, 0.5f), {100, -20, 0.5f}, {10, 60, 0.5f}}});
