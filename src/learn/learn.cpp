@@ -67,11 +67,13 @@ void leave_open(Prober& prober, const Probe& probe, const std::string& why) {
   }
 }
 
-// Arithmetic that no depth shows: attributes are interpolated in it, too, and the arithmetic of the largest errors fits.
-// (Where depths show that none fits, they are wrong.)
+// Arithmetic that no depth shows, or that none of the declared ones explains, which is a finding: attributes are
+// interpolated in it, too, and the arithmetic of the largest errors is taken.
 void leave_arithmetic_wide(Learned& learned) {
-  const auto is_open = [](const LearnedRow& row) { return row.name == "depth_arithmetic" && row.value == "open"; };
-  if (std::ranges::any_of(learned.rows, is_open))
+  const auto is_unknown = [](const LearnedRow& row) {
+    return row.name == "depth_arithmetic" && (row.value == "open" || row.value == "none fits");
+  };
+  if (std::ranges::any_of(learned.rows, is_unknown))
     learned.conventions.depth_arithmetic = Conventions::DepthArithmetic::in_float_from_origin;
 }
 

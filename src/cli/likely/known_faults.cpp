@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/by_conventions.h"
 #include "cli/likely/misread_states.h"
 
 namespace plumbline::cli {
@@ -216,13 +217,15 @@ constexpr std::string_view kOtherSide = ", or to another side";
 
 constexpr std::array kTruncations = {std::string_view("merge.truncated"), std::string_view("depth.truncated")};
 
-// Faults that draw what the conventions declare.
-std::vector<std::string_view> declared_faults(const Conventions& c) {
+// Faults that draw what the conventions declare of the scene.
+std::vector<std::string_view> declared_faults(const Scene& scene, const Conventions& c) {
   using enum Conventions::TieRule;
   std::vector<std::string_view> out;
   if (c.color_rounding == Conventions::Rounding::down) out.push_back("merge.truncated");
   if (c.depth_rounding == Conventions::Rounding::down) out.push_back("depth.truncated");
-  if (c.interpolation == Conventions::Interpolation::affine) out.push_back("attributes.affine");
+  // The fault interpolates all attributes alike: colours alone, where the scene has no texture.
+  const Conventions::Interpolation of_all = textured(scene) ? c.interpolation : interpolation_of_colors(c);
+  if (of_all == Conventions::Interpolation::affine) out.push_back("attributes.affine");
   if (c.tie_rule == inclusive) out.push_back("coverage.inclusive_edges");
   if (c.tie_rule == exclusive) out.push_back("notes.000.strict_edges");
   if (c.tie_rule == left_top) out.push_back("coverage.top_for_bottom");
@@ -287,7 +290,7 @@ std::vector<KnownFault> picture_faults() {
 
 std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given) {
   std::vector<KnownFault> out;
-  const std::vector<std::string_view> declared = declared_faults(given.conventions);
+  const std::vector<std::string_view> declared = declared_faults(scene, given.conventions);
   const std::span<const std::uint8_t> legal = given.is_legal.values();
   const bool is_all_legal = !legal.empty() && std::ranges::all_of(legal, [](std::uint8_t l) { return l != 0; });
   for (const FaultInfo& fault : fault_infos()) {  // a wrong declaration comes before faults that draw the same frame
@@ -318,7 +321,8 @@ ColorAndDepth draw_with(std::span<const KnownFault* const> faults, const Scene& 
                         CutAt cut_at) {
   Scene changed = scene;
   std::vector<std::string> of_stages;
-  for (const std::string_view declared : declared_faults(conventions)) {  // first: a fault of the same stage stays
+  for (const std::string_view declared :
+       declared_faults(scene, conventions)) {  // first: a fault of the same stage stays
     const bool is_lifted = std::ranges::any_of(faults, [&](const KnownFault* f) { return f->lifts == declared; });
     if (!is_lifted) of_stages.emplace_back(declared);
   }
