@@ -141,14 +141,21 @@ void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, T
   }
 }
 
-/// edge_displacement() of the edges of a triangle's visible part. The box of a triangle that the frame cuts may be as
-/// large as the frame, however small that part is.
-glm::dvec2 of_edges(const Projected& scene, std::span<const glm::dvec2> outline, bool is_cut) {
+/// edge_displacement() of the edges of a triangle's visible part. Edge functions are stepped over the box of all that is
+/// between the near and far planes.
+glm::dvec2 of_edges(const Projected& scene, const std::array<const Corner*, 3>& c, const Triangle& t,
+                    std::span<const glm::dvec2> outline) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
-  glm::dvec2 low = outline[0], high = low;
-  for (const glm::dvec2& p : outline) low = glm::min(low, p), high = glm::max(high, p);
-  const bool is_by_box = is_cut && arithmetic == Conventions::DepthArithmetic::in_float_stepped_edges;
-  return edge_displacement(arithmetic, is_by_box ? glm::dvec2(scene.width, scene.height) : high - low, scene.width);
+  const glm::dvec2 frame(scene.width, scene.height), half = 0.5 * frame;
+  WindowBox box(outline[0] + half);
+  for (const glm::dvec2& p : outline) box.add(p + half);
+  if (t.cut && arithmetic == Conventions::DepthArithmetic::in_float_stepped_edges) {
+    bool cut = false;
+    const Polygon whole = part_inside(scene, c, 2, cut);
+    for (std::size_t i = 0; i < whole.count; ++i)
+      box.add(glm::dvec2(whole.v[i]) / std::max(whole.v[i].z, kFloatRounding * t.size.w) + half);
+  }
+  return edge_displacement(arithmetic, box, frame);
 }
 
 /// Sets `guarded`: the pieces of a renderer that does not clip at the sides.
@@ -234,7 +241,7 @@ void set_extent(const Projected& scene, const Draw& draw, const std::array<const
     p_window[i] = glm::dvec2(part.v[i]) / w;
     farthest = glm::max(farthest, glm::abs(part.v[i] / w));
   }
-  t.stepped = of_edges(scene, std::span(p_window).first(part.count), t.cut);
+  t.stepped = of_edges(scene, c, t, std::span(p_window).first(part.count));
   t.reach = displacement(scene, t, farthest, t.w_min);
   set_growth(scene, c, t);
   const std::span corners = std::span(p_window).first(part.count);

@@ -18,8 +18,8 @@
 // centres in the bands is taken.
 //
 // Sides of the frame. A side that cuts a triangle is no edge of it, but floats may displace the cut by more than the
-// half pixel between the side and the next samples, where corners are far outside the frame and near the eye. Samples
-// that are open by such a cut alone are counted as they are.
+// half pixel between the side and the next samples, where corners are far outside the frame and near the eye. Pixels
+// that have several legal answers, and a sample that is open by an edge of a cut alone, are counted as they are.
 #include "reference/oracle/ambiguity.h"
 
 #include <algorithm>

@@ -293,7 +293,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   std::vector<Hit> to_fold;
   std::vector<LegalAnswer> answers;
   const std::vector<bool> asked = asked_pixels(frame, request.pixels);
-  double by_depth = 0, centres = 0, at_sides = 0;
+  double by_depth = 0, centres = 0, at_cuts = 0;
   const std::size_t most_answers =
       request.memory_budget / (2 * sizeof(LegalAnswer));  // a vector that grows is there twice
   for (int y = 0; y < frame.height; ++y) {
@@ -324,12 +324,12 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
       by_depth += share.area;
       centres += share.centre ? 1 : 0;
-      const auto is_open_at_side = [](const PixelHit& h) { return h.at_side && !h.hit.certain && h.hit.group < 0; };
-      at_sides += std::ranges::any_of(hits, is_open_at_side) ? 1 : 0;
+      const auto is_open_at_cut = [](const PixelHit& h) { return h.at_cut && !h.hit.certain && h.hit.group < 0; };
+      at_cuts += answers.size() > 1 && std::ranges::any_of(hits, is_open_at_cut) ? 1 : 0;
     }
   }
   legal.predicted_ambiguous =
-      std::max(by_depth, centres) + ambiguous_by_edges(scene, projected, out.planes.id) + at_sides;
+      std::max(by_depth, centres) + ambiguous_by_edges(scene, projected, out.planes.id) + at_cuts;
   return out;
 }
 

@@ -166,7 +166,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   const bool at_cut = is_at_cut(site, out.at_diagonal, out.delta);
   const bool is_within = site.inside && site.border > out.delta && !t.thin;
   out.hit.certain = is_within && !at_cut;
-  out.at_side = is_within && at_cut;
+  out.at_cut = is_within && at_cut;
   // Two triangles whose shared edge a side plane cuts may round the new corner, down or up, to different grid points.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.may_join_group = t.facing_kept && !t.flat && !t.cut;

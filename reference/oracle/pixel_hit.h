@@ -27,7 +27,7 @@ struct PixelHit {
   /// left_bottom), is in depth range, and is not culled.
   bool inside = false;
   bool at_diagonal = false;  ///< inclusive or exclusive tie rule: the sample may lie on a diagonal of the cut triangle
-  bool at_side = false;      ///< coverage is open by a cut at the frame's side alone, not by an edge of the triangle
+  bool at_cut = false;       ///< coverage is open by an edge that a cut makes alone, not by one of the triangle
   bool covered_inside = false;  ///< every legal renderer covers the pixel with the triangle's inside
   bool may_join_group = false;  ///< not culled, not cut in depth here; side cuts round alike
   PixelDepth view;              ///< z_view: 0 on the near plane, 1 on the far one; not clamped. half: includes snapping

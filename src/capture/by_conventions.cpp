@@ -38,9 +38,12 @@ bool is_opaque(const Scene& scene) {
     return std::ranges::all_of(texture.levels,
                                [&](const TextureLevel& level) { return std::ranges::all_of(level.texels, is_one); });
   };
+  const auto keeps_alpha = [&](const DrawTexture& t) {
+    return t.environment != TextureEnvironment::blend || is_one(t.color);
+  };
   const auto stays_opaque = [&](const Draw& draw) {
-    return is_one(draw.material.diffuse) && (!draw.back_material || is_one(draw.back_material->diffuse)) &&
-           !draw.merge.blend && !draw.merge.logic_op;
+    return (!draw.texture || keeps_alpha(*draw.texture)) && is_one(draw.material.diffuse) &&
+           (!draw.back_material || is_one(draw.back_material->diffuse)) && !draw.merge.blend && !draw.merge.logic_op;
   };
   return is_one(scene.frame.clear_color) && std::ranges::all_of(scene.meshes, has_opaque_colors) &&
          std::ranges::all_of(scene.textures, has_opaque_texels) && std::ranges::all_of(scene.draws, stays_opaque);

@@ -1,6 +1,7 @@
 #include "capture/contradictions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -140,28 +141,32 @@ void check_finite_corners(const Capture& c, Lines& out) {
   report_column("window.color", colors);
 }
 
-// Range of places [1/256 pixel from the first pixel's centre] that a coordinate p_win [pixels] may be snapped to. Beyond
-// the frame, whose side along the axis is `length` pixels, it may be rounded towards the frame, too, as (int)x is.
+// Range of places [1/256 pixel from the first pixel's centre] that a coordinate p_win [pixels] may be snapped to, in a
+// frame whose side along the axis is `length` pixels. Allowed besides the declared rounding: towards the frame beyond
+// it, and towards the first pixel's centre before it, as (int)x is; of a coarse grid, positions that were rounded to
+// 1/256 pixel first.
 SnappedRange places_of(double p_win, int axis, int length, const Conventions& conventions, bool is_declared) {
   constexpr double kUndeclared = 2 * kSubpixel;  // a grid of whole pixels, whose sample may be anywhere in them
-  const double steps = (p_win - 0.5) * kSubpixel, error = std::max(0x1p-20 * std::abs(steps), 0x1p-9);
+  const double steps = (p_win - 0.5) * kSubpixel, rounding = std::max(0x1p-20 * std::abs(steps), 0x1p-9);
   if (!is_declared) return {steps - kUndeclared, steps + kUndeclared};
+  const double from_side = p_win - 0.5 + conventions.sample[axis];  // in the renderer's own window
   // A grid that is finer than window.snapped, or none, is rounded to it in any way.
   const bool is_fine = conventions.subpixel_bits == Conventions::kFloat || conventions.subpixel_bits > 8;
-  if (is_fine) return {std::floor(steps - error), std::ceil(steps + error)};
-  const double from_side = p_win - 0.5 + conventions.sample[axis];  // in the renderer's own window
-  const bool is_up = from_side < 0, is_beyond = is_up || from_side > length;
-  const double cell = is_beyond ? std::ldexp(kSubpixel, -conventions.subpixel_bits) : 0;
-  return {snapped_range(conventions, axis, steps - error).least - (is_up ? 0 : cell),
-          snapped_range(conventions, axis, steps + error).most + (is_up ? cell : 0)};
+  if (is_fine) {
+    const double own = (from_side - 0.5) * kSubpixel, moved = std::round(steps - own);  // as to_dialect() moves snapped
+    return {std::floor(own - rounding) + moved, std::ceil(own + rounding) + moved};
+  }
+  const double cell = std::ldexp(kSubpixel, -conventions.subpixel_bits), error = cell > 1 ? 0.5 + rounding : rounding;
+  return {snapped_range(conventions, axis, steps - error).least - (from_side > length ? cell : 0),
+          snapped_range(conventions, axis, steps + error).most + (from_side < 0.5 ? cell : 0)};
 }
 
 // window.snapped against window.p_win, where both are handed out.
 void check_snapped(const Capture& c, const Conventions& conventions, Lines& out) {
   if (c.records.triangles.empty() || c.derived.contains("window.snapped")) return;
-  const auto is_open = [&](std::string_view name) { return std::ranges::count(conventions.open, name) > 0; };
-  const bool is_declared = !(conventions == undeclared()) && !is_open("subpixel_bits") && !is_open("sample") &&
-                           !is_open("subpixel_rounding") && !is_open("window_y");
+  const auto is_open = [&](std::string_view name) { return leaves_open(conventions, name); };
+  constexpr std::array<std::string_view, 4> kOfGrid = {"subpixel_bits", "sample", "subpixel_rounding", "window_y"};
+  const bool is_declared = !(conventions == undeclared()) && std::ranges::none_of(kOfGrid, is_open);
   std::size_t apart = 0, corners = 0;
   std::string first;
   for (std::size_t i = 0; i < c.records.triangles.size(); ++i) {

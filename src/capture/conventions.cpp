@@ -56,10 +56,14 @@ double on_grid(const Conventions& conventions, int axis, double p_win) {
   return rounded(subpixel_rounding(conventions, axis), in_steps(conventions, axis, p_win));
 }
 
+bool leaves_open(const Conventions& conventions, std::string_view name) {
+  return std::ranges::find(conventions.open, name) != conventions.open.end();
+}
+
 bool settles_grid(const Conventions& c) {
   // Edge functions in a frame of 2^15 pixels are exact in double: 2 (15 + 10) + 2 bits.
   constexpr int kFinest = 10, kOfRecords = 8;  // window.snapped is in 1/256 pixel
-  const auto is_open = [&](const char* name) { return std::ranges::find(c.open, name) != c.open.end(); };
+  const auto is_open = [&](std::string_view name) { return leaves_open(c, name); };
   if (is_open("subpixel_bits") || is_open("subpixel_rounding") || is_open("sample")) return false;
   if (c.subpixel_bits < 0 || c.subpixel_bits > kFinest) return false;
   const bool is_to_nearest = c.subpixel_rounding == Conventions::Rounding::nearest;

@@ -234,6 +234,9 @@ inline constexpr ConventionWords kOffsetWords{"offset_unit", "a polygon offset's
 inline constexpr ConventionWords kFloatOffsetWords{"float_offset_unit", "a polygon offset's unit in depths of floats",
                                                    true};
 
+/// Whether `open` names the convention.
+bool leaves_open(const Conventions& conventions, std::string_view name);
+
 /// Whether the declared grid and sample settle where corners and samples lie: subpixel_bits 0 to 10, the sample at a
 /// multiple of 1/256 pixel or on the grid; where rows count from the top, subpixel_rounding nearest or window_y down
 /// (else y may be rounded either way).

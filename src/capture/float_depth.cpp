@@ -41,12 +41,16 @@ double steps_over(glm::dvec2 box) { return sum_of(glm::ceil(box) + 2.0); }
 
 }  // namespace
 
-glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, glm::dvec2 box, double most_x) {
+glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, const WindowBox& box, glm::dvec2 frame) {
   using enum Conventions::DepthArithmetic;
-  if (arithmetic == in_float_stepped) return {kU * stepped_edge(box.y, most_x), 0};
+  const glm::dvec2 size = box.high - box.low, in_frame = glm::min(size, frame);
+  const double most_x = std::max(std::abs(box.low.x), std::abs(box.high.x));
+  if (arithmetic == in_float_stepped) return {kU * stepped_edge(in_frame.y, most_x), 0};
   if (arithmetic != in_float_stepped_edges) return glm::dvec2(0);
-  const glm::dvec2 walked = box + 2.0;  // the box's pixels
-  return glm::dvec2(kU * ((steps_over(walked) + 4 * std::numbers::sqrt2) * glm::length(walked) + sum_of(walked)));
+  const glm::dvec2 walked = in_frame + 2.0;  // pixels
+  const double of_first = 4 * std::numbers::sqrt2 * glm::length(size + 2.0),
+               of_steps = steps_over(walked) * glm::length(walked) + sum_of(walked);
+  return glm::dvec2(kU * (of_first + of_steps));
 }
 
 double error_by_edge_functions(const WindowCorners& corners, glm::dvec2 p) {
@@ -120,7 +124,7 @@ double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::d
   low = glm::max(low, frame == kNoSides ? -frame : glm::dvec2(0));
   high = glm::min(high, frame);
   const glm::dvec2 box = high - low;
-  double out = 0;
+  std::array<double, 3> of_share{};
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec2 along = edges.to(i) - edges.from(i);
     double most = 0, most_terms = 0;
@@ -129,9 +133,14 @@ double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::d
       most_terms = std::max(most_terms, terms(along, at - edges.from(i)));
     }
     const double of_steps = steps_over(box) * most + terms(along, box + 2.0);
-    out += std::abs(corners[i].z) * (4 * most_terms + of_steps) / std::abs(edges.area);
+    of_share[i] = (4 * most_terms + of_steps) / std::abs(edges.area);
   }
-  return or_infinite(out);
+  const auto of_sum = [&](double origin) {  // of z - origin, as a sum of shares
+    double out = 0;
+    for (std::size_t i = 0; i < 3; ++i) out += std::abs(corners[i].z - origin) * of_share[i];
+    return out;
+  };
+  return or_infinite(std::max({of_sum(0), of_sum(corners[0].z), of_sum(corners[1].z), of_sum(corners[2].z)}));
 }
 
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,

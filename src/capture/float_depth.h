@@ -34,14 +34,25 @@ double error_by_plane(const WindowCorners& corners, glm::dvec2 p);
 /// |A|. Small triangles far from the origin lose most.
 double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p);
 
-/// Displacement in x and in y of an edge [pixels] whose triangle's box, or its part in the frame, has the size `box`;
-/// |x| is at most `most_x` [pixels].
-/// - in_float_stepped: x is added up from row to row, two roundings a row (slope, sum), two more at each end.
-/// - in_float_stepped_edges: an edge function is added up over the box, and is at most the box's diagonal times the
-///   edge's length. One rounding a step of that size, one of the step itself, by the edge's length; 4 u of its terms at
-///   the box's corner. In any direction.
+/// Box of a triangle's corners in the window [pixels].
+struct WindowBox {
+  explicit WindowBox(glm::dvec2 corner) : low(corner), high(corner) {}
+  void add(glm::dvec2 corner) {
+    low = glm::min(low, corner);
+    high = glm::max(high, corner);
+  }
+  glm::dvec2 low, high;
+};
+
+/// Displacement in x and in y of an edge [pixels], near which a sample lies, of a triangle that has this box.
+/// - in_float_stepped: x is added up from row to row of the frame, two roundings a row (slope, sum) of at most the
+///   box's largest |x|, two more at each end.
+/// - in_float_stepped_edges: the edge function is added up over the box's part in the frame, where it is at most that
+///   part's diagonal times the edge's length. Divided by that length, its errors are: a rounding of that size and one of
+///   the step itself for each step, and 4 u of the terms at the part's corner, which the box's own diagonal bounds. The
+///   displacement may point in any direction.
 /// - Otherwise 0.
-glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, glm::dvec2 box, double most_x);
+glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, const WindowBox& box, glm::dvec2 frame);
 
 /// Error that stepping z from a corner to p adds to a plane's error [u of window z]: a sum for each row along an edge
 /// and for each column, of numbers of at most the largest |z_i|; and |dz/dx| times edge_displacement(), as the edge's x
@@ -49,7 +60,8 @@ glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, glm::dvec2
 /// over rows and columns beyond the frame.
 double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame);
 
-/// Error of sum z_i e_i / A at p beyond error_by_edge_functions() [u of window z], where each e_i is added up from a
+/// Error of sum z_i e_i / A, or of z_k + sum (z_i - z_k) e_i / A over two corners (k the third, whichever it is), at p
+/// beyond error_by_edge_functions() [u of window z], where each e_i is added up from a
 /// corner of the triangle's box in the frame, from pixel to pixel and from row to row, and is divided by A in the end:
 /// one rounding a step, of at most the largest |e_i| in the box; one of a_i or b_i in each step; and 4 u of the terms
 /// at the box's corner. Beside a sliver's long edges |e_i| is large there, and A is small.

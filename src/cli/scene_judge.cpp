@@ -37,18 +37,17 @@ std::optional<Planes> drawn_alone(ProgramArgument program, const Scene& scene) {
   }
 }
 
-// Causes that the records of the first stage that is wrong by itself show (check/diagnose/causes.h); none without
-// records, or in a large scene.
+// Causes that the records of the first stage that is wrong by itself show (check/diagnose/causes.h); none where no row
+// judges records.
 std::vector<std::string> causes_by_records(const Scene& scene, Renderer& candidate, const check::SceneVerdict& verdict,
                                            std::span<const check::Reference> references) {
-  constexpr std::uint64_t kMostFragments = 200'000;
   const auto is_wrong_by_itself = [](const check::Comparison& row) {
     return row.judge.kind == check::Kind::per_stage && row.outcome == check::Outcome::different;
   };
   const auto is_exact = [](const check::Reference& r) { return r.renderer && is_referee(r.renderer->info()); };
   const auto exact = std::ranges::find_if(references, is_exact);
   if (exact == references.end() || std::ranges::none_of(verdict.comparisons, is_wrong_by_itself)) return {};
-  const check::Diagnosis diagnosis = check::diagnose(scene, candidate, std::span(&*exact, 1), kMostFragments);
+  const check::Diagnosis diagnosis = check::diagnose(scene, candidate, std::span(&*exact, 1));
   std::vector<std::string> out;
   if (diagnosis.findings.empty()) return out;
   const check::Finding& first = diagnosis.findings.front();

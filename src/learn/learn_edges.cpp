@@ -113,7 +113,7 @@ std::optional<Grid> implied(const std::vector<Edge>& edges, int bits, C::Roundin
   }
   if (samples.empty()) return std::nullopt;
   std::ranges::sort(samples);
-  const std::size_t outliers = std::min(most_outliers, samples.size() / 2), n = samples.size() - outliers;
+  const std::size_t n = samples.size() - std::min(most_outliers, samples.size() / 2);
   auto first = samples.begin();  // of the n that lie nearest to each other
   const auto spread = [&](auto at) { return *(at + static_cast<std::ptrdiff_t>(n) - 1) - *at; };
   for (auto at = samples.begin(); at + static_cast<std::ptrdiff_t>(n) <= samples.end(); ++at) {
@@ -123,7 +123,11 @@ std::optional<Grid> implied(const std::vector<Edge>& edges, int bits, C::Roundin
   const double most_scatter = 3.5 * edges.front().rise / kLong, scatter = spread(first);
   double sample = std::accumulate(first, first + static_cast<std::ptrdiff_t>(n), 0.0) / static_cast<double>(n);
   if (edges.front().rise == 1 && sample > 0.999) --sample;  // the lowest row was lost although lost_rows is 0
-  return Grid{bits, rounding, sample, n, edges.size(), scatter, scatter <= most_scatter, outliers};
+  const auto lies_elsewhere = [&](double at) { return std::abs(at - *first) > most_scatter; };
+  const auto outliers =
+      static_cast<std::size_t>(most_outliers > 0 ? std::ranges::count_if(samples, lies_elsewhere) : 0);
+  return Grid{bits,    rounding, sample, samples.size() - outliers, edges.size(), scatter, scatter <= most_scatter,
+              outliers};
 }
 
 // Best grid: of those that explain the edges, the one of least scatter, the finest of equals; else kFloat.
@@ -142,7 +146,8 @@ std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int 
   return best;
 }
 
-// grid_of() all edges; where none explains them, of all but one in 16: a mistake at the frame's border moves some alone.
+// The grid of all edges; where none explains them, that of 15 edges in 16: a mistake at the frame's border moves single
+// edges.
 std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int most_bits, int lost_rows) {
   const std::optional<Grid> of_all = grid_of(edges, least_bits, most_bits, lost_rows, 0);
   if (of_all && of_all->explains) return of_all;
@@ -334,11 +339,12 @@ void learn_grid(Prober& prober) {
   if (!sample) return open_all("the picture is shifted");
   C& c = prober.learned.conventions;
   c.sample = *sample;
-  prober.found(kSampleWords, sample_text(c.sample), grids.explain() ? evidence : evidence + ", which scatter about it");
+  const char* doubt = !grids.explain()             ? ", which scatter about it"
+                      : !is_at_sixteenth(c.sample) ? ", no multiple of 1/16 pixel: a mistake may move the edges"
+                                                   : "";
+  prober.found(kSampleWords, sample_text(c.sample), evidence + doubt);
   if (const std::size_t outliers = grids.rows->outliers + grids.columns->outliers; grids.explain() && outliers > 0)
     prober.unexplained(fmt::format("{} of {} edges lie elsewhere: pixels are lost or added there", outliers, all));
-  if (grids.explain() && !is_at_sixteenth(c.sample))
-    prober.unexplained(fmt::format("the sample is at {}, no multiple of 1/16 pixel", sample_text(c.sample)));
   if (!grids.explain()) {
     for (const ConventionWords& words : {bits, rounding, window_y}) prober.open(words, "no grid explains the edges");
     return;

@@ -133,8 +133,29 @@ TEST_F(Contradictions, SnappedPositionsThatAreNotTheWindowPositions) {
   EXPECT_TRUE(contradictions_of(beyond, Stage::window, declared).empty());
   for (WindowVertex<double>& v : beyond.records.triangles[0].v) v.snapped.x = -897;
   EXPECT_EQ(contradictions_of(beyond, Stage::window, declared).size(), 1u);
+  // (int)((x - 1/2) * 256), before the first pixel's centre.
+  for (WindowVertex<double>& v : beyond.records.triangles[0].v) v.p_win.x = 0.251, v.snapped.x = -63;
+  EXPECT_TRUE(contradictions_of(beyond, Stage::window, declared).empty());
+  for (WindowVertex<double>& v : beyond.records.triangles[0].v) v.p_win.x = 7.251, v.snapped.x = 1729;
+  EXPECT_EQ(contradictions_of(beyond, Stage::window, declared).size(), 1u);
+  // To the nearest 1/256 pixel, and half up from there to the nearest 1/16.
   declared.subpixel_rounding = Conventions::Rounding::nearest;
+  declared.subpixel_bits = 4;
+  for (WindowVertex<double>& v : beyond.records.triangles[0].v)
+    v.p_win = {10.0308, 7.25, 0.5}, v.snapped = {2448, 1728};
+  EXPECT_TRUE(contradictions_of(beyond, Stage::window, declared).empty());
+  // Without a grid, of samples at no multiple of 1/256 pixel: moved, and rounded in any way.
   declared.subpixel_bits = Conventions::kFloat;
+  declared.sample = glm::dvec2(0.3);
+  for (const double own : {4.001, 4.0034, 4.0039}) {
+    const double by = 0.2, place = std::floor((own - 0.5) * 256) + std::round(by * 256);
+    for (WindowVertex<double>& v : beyond.records.triangles[0].v) {
+      v.p_win = {own + by, own + by, 0.5};
+      v.snapped = glm::ivec2(static_cast<int>(place));
+    }
+    EXPECT_TRUE(contradictions_of(beyond, Stage::window, declared).empty()) << own;
+  }
+  declared.sample = glm::dvec2(0.5);
   EXPECT_TRUE(moved(0, declared).empty());
   EXPECT_EQ(moved(2, declared).size(), 1u);
   declared.open = {"subpixel_bits"};

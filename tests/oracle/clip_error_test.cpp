@@ -110,11 +110,10 @@ TEST(ClipError, SteppedEdgesMoveAlongX) {
   EXPECT_LE(t.stepped.x, 2 * 63 * 80 * kFloatRounding);
   EXPECT_EQ(t.stepped.y, 0);
   EXPECT_GT(t.reach, same.reach);
-  // Edge functions are stepped over the box of a triangle that the frame cuts: over the frame.
+  // Edge functions begin at the box of all that is before the near plane, which is far larger than the frame.
   stepped.depth_arithmetic = Conventions::DepthArithmetic::in_float_stepped_edges;
   const Triangle by_edges = project(floor_across_the_eye(), stepped).triangles[0];
   EXPECT_GT(by_edges.stepped.x, 140 * 100 * kFloatRounding);
-  EXPECT_LE(by_edges.stepped.x, 160 * 110 * kFloatRounding);
   EXPECT_EQ(by_edges.stepped.y, by_edges.stepped.x);
 }
 

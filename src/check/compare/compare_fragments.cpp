@@ -94,13 +94,9 @@ namespace {
 
 // edge_displacement() of a triangle's edges in a frame of that size [pixels].
 double of_steps(const WindowTriangle<double>& t, const Conventions& conventions, glm::dvec2 frame) {
-  glm::dvec2 low(t.v[0].p_win), high = low;
-  for (const WindowVertex<double>& v : t.v) {
-    low = glm::min(low, glm::dvec2(v.p_win));
-    high = glm::max(high, glm::dvec2(v.p_win));
-  }
-  const double most_x = std::max(std::abs(low.x), std::abs(high.x));
-  return glm::length(edge_displacement(conventions.depth_arithmetic, glm::min(high - low, frame), most_x));
+  WindowBox box{glm::dvec2(t.v[0].p_win)};
+  for (const WindowVertex<double>& v : t.v) box.add(glm::dvec2(v.p_win));
+  return glm::length(edge_displacement(conventions.depth_arithmetic, box, frame));
 }
 
 // Displacement of a triangle's edges in the candidate [pixels]: by steps, and by the grid, which moves a corner by up
@@ -115,6 +111,14 @@ double moved(const WindowTriangle<double>& t, const Conventions& conventions, gl
   }
   const bool to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
   return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions, frame);
+}
+
+// Error of a float edge function [pixels], at a corner that is snapped: 8 u of the largest coordinates.
+double of_float_edges(const WindowTriangle<double>& t, const Conventions& conventions) {
+  if (conventions.depth_arithmetic == Conventions::DepthArithmetic::in_double) return 0;
+  double most = 0;
+  for (const WindowVertex<double>& v : t.v) most = std::max(most, std::abs(v.p_win.x) + std::abs(v.p_win.y));
+  return 8 * u * most;
 }
 
 // Legality of a sample's membership in the two triangles that share its edge, by a tie rule.
@@ -135,14 +139,24 @@ std::size_t edges_near(const std::array<glm::dvec2, 3>& corners, glm::dvec2 p, d
   return out;
 }
 
+// How a candidate covers pixels: by conventions, with its own snapped corners or those that follow from them; its
+// samples' position [pixels from the pixel's corner of smallest coordinates], and its frame's size [pixels].
+struct Covering {
+  const Conventions& conventions;
+  SnappedBy snapped_by;
+  glm::dvec2 sample, frame;
+};
+
 // Fragments compared. At samples on edges they are ambiguous where open(triangle), unless two triangles share the edge
 // and is_owned() is false.
 template <class Open>
 Measurement covered_except_edges_of(const Records<double>& candidate, const Records<double>& reference,
-                                    const Conventions& conventions, SnappedBy snapped_by, glm::dvec2 sample,
-                                    glm::dvec2 frame, Open open) {
+                                    const Covering& by, Open open) {
   constexpr double kOfExact = std::numbers::sqrt2 / 2 / kSubpixel;  // [pixels] as far as exact moves a corner
-  const bool by_one_grid = conventions.subpixel_bits >= 0 && conventions.subpixel_bits <= 8;
+  const Conventions& conventions = by.conventions;
+  const glm::dvec2 sample = by.sample, frame = by.frame, places = conventions.sample * double{kSubpixel};
+  const bool by_one_grid =
+      conventions.subpixel_bits >= 0 && conventions.subpixel_bits <= 8 && places == glm::round(places);
   std::optional<SharedEdges> shared;  // once there is a fragment to ask about
   const auto is_covered = [&](Covered c, std::uint32_t triangle) {
     c.triangle = triangle;
@@ -153,8 +167,8 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
   // grid that window.snapped holds, both sides have a corner at one position.
   const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
     const WindowTriangle<double>& t = candidate.triangles[triangle];
-    if (by_one_grid && !has_corner_between_places(t, conventions, snapped_by))
-      return edges_near(window_corners(t, true), p, of_steps(t, conventions, frame));
+    if (by_one_grid && !has_corner_between_places(t, conventions, by.snapped_by))
+      return edges_near(window_corners(t, true), p, of_steps(t, conventions, frame) + of_float_edges(t, conventions));
     return edges_near(window_corners(t, false), p, moved(t, conventions, frame) + (by_both ? kOfExact : 0));
   };
   const auto on_an_edge = [&](const Covered& c) {
@@ -174,14 +188,14 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
 Measurement compare_covered_except_edges(const Records<double>& candidate, const Records<double>& reference,
                                          const Conventions& conventions, glm::dvec2 sample, glm::dvec2 frame,
                                          SnappedBy snapped_by) {
-  return covered_except_edges_of(candidate, reference, conventions, snapped_by, sample, frame,
+  return covered_except_edges_of(candidate, reference, {conventions, snapped_by, sample, frame},
                                  [](const auto&) { return true; });
 }
 
 Measurement compare_covered_by_rule(const Records<double>& candidate, const Records<double>& reference,
                                     const Conventions& conventions, SnappedBy snapped_by, glm::dvec2 frame) {
   return covered_except_edges_of(
-      candidate, reference, conventions, SnappedBy::conventions, glm::dvec2(0.5), frame,
+      candidate, reference, {conventions, SnappedBy::conventions, glm::dvec2(0.5), frame},
       [&](const WindowTriangle<double>& t) { return has_corner_between_places(t, conventions, snapped_by); });
 }
 

@@ -70,7 +70,8 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// ambiguous where the sample lies within d [pixels] of an edge of the candidate's triangle. d is the sum of the edge's
 /// displacements by the declared grid (no grid: by rounding in float), by exact's snapping to 1/256 pixel, and by
 /// stepping in float where depth_arithmetic declares stepping. On a declared grid of whole to 1/256 pixels the first two
-/// are 0, unless has_corner_between_places().
+/// are 0, unless has_corner_between_places(); float edge functions reach 8 u of the largest coordinates, unless
+/// depth_arithmetic is in_double.
 /// A fragment differs nevertheless where the sample lies on an edge that two triangles share (shared_edges.h), near no
 /// other edge of these, and is not in exactly one of the two (inclusive: nor in both; exclusive: nor in neither).
 /// `sample`: sample position [pixels from the pixel's corner of smallest coordinates]. `frame`: its size [pixels], in

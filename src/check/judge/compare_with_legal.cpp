@@ -53,7 +53,7 @@ bool predicts_open_pixels(const Conventions& conventions) {
 DeclaredCodes declared_codes(const SceneJudgement& c) {
   const Conventions& d = c.conventions;
   if (depth_scale(c.scene.frame.depth) == 0 || !c.foreign) return {};
-  const auto is_open = [&](std::string_view name) { return std::ranges::find(d.open, name) != d.open.end(); };
+  const auto is_open = [&](std::string_view name) { return leaves_open(d, name); };
   DeclaredCodes out;
   out.has_codes = !(d == undeclared()) && !is_open("depth_format");
   // The product by the largest code is rounded in float, too: by up to a code of 24 bits, 1/256 of one of 16. Depths of

@@ -255,7 +255,7 @@ bool is_contradicted(const std::string_view fault, const Conventions& convention
   const bool of_rows = fault == "file.rows_reversed" || fault == "window.y_flipped",
              of_depths = fault == "file.depth_of_ndc" || fault == "file.depth_reversed";
   if (!(of_rows || of_depths) || conventions == undeclared()) return false;
-  return std::ranges::find(conventions.open, of_rows ? "rows" : "depth_range") == conventions.open.end();
+  return !leaves_open(conventions, of_rows ? "rows" : "depth_range");
 }
 
 }  // namespace

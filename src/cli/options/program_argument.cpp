@@ -249,7 +249,7 @@ std::string convention_notes(const std::string& file) {
 
 std::string hint_of_conventions(const std::string& file) {
   if (const Conventions declared = conventions_of(file); !declared.open.empty() || !declared.unexplained.empty())
-    return "";  // plumb learn wrote the file
+    return "";  // of plumb learn
   const std::string judged_by = file.empty() ? "OpenGL's" : "those of " + file;
   return fmt::format(
       "the renderer's own conventions (grid, tie rule, roundings, corners) may be others than {}:\n"

@@ -43,7 +43,8 @@ Conventions conventions_of(const std::string& file);
 std::string convention_notes(const std::string& file);
 
 /// Hint for people about a wrong renderer: its conventions may be others than the file declares or, without a file,
-/// than OpenGL's; and how to find them. A line and a command; empty where plumb learn wrote the file.
+/// than OpenGL's; and how to find them. A line and a command; empty where the file lists what
+/// plumb learn left open or unexplained.
 std::string hint_of_conventions(const std::string& file);
 
 /// The command line with {submission} replaced by the folder's absolute path, quoted for a shell. Throws

@@ -44,9 +44,12 @@ struct SteppedTriangle {
     }
     return out;
   }
-  float depth(int x, int y) const {
+  // Sums of three shares, of two shares of differences, and of two shares and what is left of 1.
+  std::array<float, 3> depths(int x, int y) const {
     const std::array<float, 3> e = at(x, y);
-    return (e[0] * z[0] + e[1] * z[1] + e[2] * z[2]) / area;
+    const float b0 = e[0] / area, b1 = e[1] / area;
+    return {(e[0] * z[0] + e[1] * z[1] + e[2] * z[2]) / area, z[2] + b0 * (z[0] - z[2]) + b1 * (z[1] - z[2]),
+            b0 * z[0] + b1 * z[1] + (1 - b0 - b1) * z[2]};
   }
 
   std::array<EdgeFunction, 3> edges;
@@ -72,10 +75,11 @@ EdgeRatios largest_edge_ratios(double reach) {
       const auto along = [&](double side) { return side * (0.5 + reach * in(-0.5, 0.5)); };
       corner = glm::dvec3(glm::vec3(along(frame.x), along(frame.y), in(0, 1)));
     }
-    if (n % 2 == 0) {  // a sliver: the third corner lies beside the middle of the other two
-      const glm::vec3 middle(0.5 * (corners[0] + corners[1]));
+    if (n % 2 == 0) {  // a sliver: the third corner lies beside the middle of the other two, or beside one of them
+      const glm::vec3 middle(n % 4 == 0 ? 0.5 * (corners[0] + corners[1]) : corners[1]);
       corners[2] = glm::dvec3(middle + glm::vec3(1.5f, -1.5f, 0.1f));
     }
+    if (n % 3 == 0) corners[0].z = 1, corners[1].z = corners[2].z = 0;
     const glm::dvec2 a(corners[0]), e1 = glm::dvec2(corners[1]) - a, e2 = glm::dvec2(corners[2]) - a;
     const double area = e1.x * e2.y - e2.x * e1.y;
     if (std::abs(area) < 4 || std::max(glm::length(e1), glm::length(e2)) > std::abs(area)) continue;
@@ -88,14 +92,17 @@ EdgeRatios largest_edge_ratios(double reach) {
       if (!is_seen || std::min({b1, b2, 1 - b1 - b2}) < 0) continue;
       const double z = corners[0].z + b1 * (corners[1].z - corners[0].z) + b2 * (corners[2].z - corners[0].z);
       const int x = static_cast<int>(inside.x), y = static_cast<int>(inside.y);
-      const double off = std::abs(static_cast<double>(stepped.depth(x, y)) - z);
+      double off = 0;
+      for (const float depth : stepped.depths(x, y)) off = std::max(off, std::abs(static_cast<double>(depth) - z));
       out.of_bound = std::max(out.of_bound, off / depth_error(in_float_stepped_edges, corners, p, frame));
       out.of_product = std::max(out.of_product, off / depth_error(in_float, corners, p, frame));
       // Of the edge opposite corner 2, whose function is b2 times the area.
-      const glm::dvec2 box = glm::min(glm::max(glm::abs(e1), glm::max(glm::abs(e2), glm::abs(e2 - e1))), frame);
+      WindowBox box(a);
+      for (const glm::dvec3& corner : corners) box.add(glm::dvec2(corner));
       const double moved = std::abs(static_cast<double>(stepped.at(x, y)[2]) - b2 * area) / glm::length(e1),
-                   bound = edge_displacement(in_float_stepped_edges, box, frame.x).x;
-      if (reach <= 1) out.of_displacement = std::max(out.of_displacement, moved / bound);
+                   bound = edge_displacement(in_float_stepped_edges, box, frame).x;
+      if (std::abs(b2 * area) <= glm::length(e1) * glm::length(frame))  // the edge's line passes through the frame
+        out.of_displacement = std::max(out.of_displacement, moved / bound);
     }
   }
   std::printf("%.3f of the bound, %.3f of that of in_float; edges: %.3f\n", out.of_bound, out.of_product,
@@ -117,6 +124,7 @@ TEST(SteppedEdgeFunctions, AreWithinTheirBoundWhereCornersLieBeyondTheFrame) {
     const EdgeRatios of = largest_edge_ratios(reach);
     EXPECT_LE(of.of_bound, 1);
     EXPECT_GT(of.of_product, 1);
+    EXPECT_LE(of.of_displacement, 1);
   }
 }
 
@@ -125,8 +133,10 @@ TEST(SteppedEdgeFunctions, StepInTheFrameAlone) {
   const WindowCorners corners = {{{0, -4000, 0}, {100, -4000, 0}, {50, 100, 1}}};
   const glm::dvec2 p(50.5, 50.5), frame(100, 100);
   EXPECT_LT(10 * error_by_stepped_edges(corners, p, frame), error_by_stepped_edges(corners, p, kNoSides));
-  EXPECT_EQ(edge_displacement(in_float, {100, 100}, 100), glm::dvec2(0));
-  const glm::dvec2 moved = edge_displacement(in_float_stepped_edges, {100, 100}, 100);
+  WindowBox box(glm::dvec2(0));
+  box.add({100, 100});
+  EXPECT_EQ(edge_displacement(in_float, box, frame), glm::dvec2(0));
+  const glm::dvec2 moved = edge_displacement(in_float_stepped_edges, box, frame);
   EXPECT_EQ(moved.x, moved.y);
   EXPECT_GE(moved.x, kU * 200 * std::hypot(100.0, 100.0));
   EXPECT_EQ(depth_error_of_pieces(in_float_stepped_edges, 0, 1, {4000, 4000}, frame),

@@ -63,6 +63,11 @@ TEST(StrangersAlpha, IsOneToBlendingWhereThereIsNone) {
   EXPECT_FALSE(is_opaque(scene));
   EXPECT_FALSE(is_opaque(blends));
   EXPECT_TRUE(is_opaque(suite_scene("first_triangles/draw_order")));
+  Scene board = suite_scene("texture/board_nearest");
+  ASSERT_TRUE(is_opaque(board));
+  board.draws[0].texture->environment = TextureEnvironment::blend;
+  board.draws[0].texture->color = {0.9f, 0.1f, 0.6f, 0.3f};
+  EXPECT_FALSE(is_opaque(board)) << "an intensity blends alpha, too";
   const SceneByConventions seen(scene, none);
   EXPECT_EQ(seen->frame.clear_color.a, 1);
   for (const Draw& draw : seen->draws) EXPECT_FALSE(draw.merge.color_mask.a);
