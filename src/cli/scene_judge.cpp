@@ -38,7 +38,7 @@ std::optional<Planes> drawn_alone(ProgramArgument program, const Scene& scene) {
 }
 
 // Causes that the records of the first stage that is wrong by itself show (check/diagnose/causes.h); none where no row
-// judges records.
+// judges records, or the scene is not is_small().
 std::vector<std::string> causes_by_records(const Scene& scene, Renderer& candidate, const check::SceneVerdict& verdict,
                                            std::span<const check::Reference> references) {
   const auto is_wrong_by_itself = [](const check::Comparison& row) {
@@ -46,7 +46,8 @@ std::vector<std::string> causes_by_records(const Scene& scene, Renderer& candida
   };
   const auto is_exact = [](const check::Reference& r) { return r.renderer && is_referee(r.renderer->info()); };
   const auto exact = std::ranges::find_if(references, is_exact);
-  if (exact == references.end() || std::ranges::none_of(verdict.comparisons, is_wrong_by_itself)) return {};
+  const bool is_wrong = std::ranges::any_of(verdict.comparisons, is_wrong_by_itself);
+  if (exact == references.end() || !is_wrong || !is_small(scene)) return {};
   const check::Diagnosis diagnosis = check::diagnose(scene, candidate, std::span(&*exact, 1));
   std::vector<std::string> out;
   if (diagnosis.findings.empty()) return out;

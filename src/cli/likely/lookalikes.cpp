@@ -326,13 +326,18 @@ std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVe
   return out;
 }
 
+bool is_small(const Scene& scene) {
+  constexpr std::size_t kMostPrimitives = 20'000;
+  constexpr int kMostPixels = 200'000;
+  return scene.frame.width <= kMostPixels / scene.frame.height && DrawIndex(scene).primitives() <= kMostPrimitives;
+}
+
 std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                                        const check::SceneVerdict& verdict) {
-  constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
   const Plane<glm::vec4>& color = left.planes.color;
   if (color.empty() || antialiased(scene) || color.width() != scene.frame.width || color.height() != scene.frame.height)
     return {};
-  if (color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives) {
+  if (!is_small(scene)) {
     if (is_wrong_by_records_alone(verdict)) return {};
     return {"known faults are not tried: over 20,000 primitives or 200,000 pixels"};
   }

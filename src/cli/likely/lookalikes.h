@@ -36,8 +36,10 @@ GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const che
 /// merge, or where records are wrong and the frame is legal: the fault then resembles a legal rule of the renderer, not
 /// its mistake.
 std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
+/// Whether causes are sought: at most 20,000 primitives and 200,000 pixels, as each cause is a drawing.
+bool is_small(const Scene& scene);
 /// likely_of() the capture's frame; empty also for an antialiased scene. Else one sentence: the frame has one colour,
-/// or the scene has more than 20,000 primitives or 200,000 pixels, and each fault is a picture.
+/// or the scene is not is_small().
 std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                                        const check::SceneVerdict& verdict);
 

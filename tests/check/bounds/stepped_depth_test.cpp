@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <random>
 
 #include "capture/float_depth.h"
+#include "tests/check/bounds/sampled_triangles.h"
 
 namespace plumbline {
 namespace {
@@ -38,32 +38,14 @@ struct Ratios {
 };
 Ratios largest_ratios(double reach) {
   using enum Conventions::DepthArithmetic;
-  std::mt19937 random(11);
-  const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   Ratios out;
-  for (int n = 0; n < 300; ++n) {
-    const glm::dvec2 frame = glm::floor(glm::dvec2(std::exp2(in(3, 11)), std::exp2(in(3, 11))));
-    WindowCorners corners;
-    for (glm::dvec3& corner : corners) {
-      const auto along = [&](double side) { return side * (0.5 + reach * in(-0.5, 0.5)); };
-      corner = glm::dvec3(glm::vec3(along(frame.x), along(frame.y), in(0, 1)));
-    }
-    const glm::dvec2 a(corners[0]), e1 = glm::dvec2(corners[1]) - a, e2 = glm::dvec2(corners[2]) - a;
-    const double area = e1.x * e2.y - e2.x * e1.y;
-    if (std::abs(area) < 64) continue;
-    for (int k = 0; k < 64; ++k) {
-      const double s = in(0.02, 0.9), t = in(0.02, 0.96 - s);
-      const glm::dvec2 inside = glm::floor(a + s * e1 + t * e2), p = inside + 0.5, q = p - a;
-      const double b1 = (q.x * e2.y - e2.x * q.y) / area, b2 = (e1.x * q.y - q.x * e1.y) / area;
-      const bool is_seen = inside.x >= 0 && inside.y >= 0 && inside.x < frame.x && inside.y < frame.y;
-      if (!is_seen || std::min({b1, b2, 1 - b1 - b2}) < 0.01) continue;
-      const double z = corners[0].z + b1 * (corners[1].z - corners[0].z) + b2 * (corners[2].z - corners[0].z);
-      const float found = stepped(corners, static_cast<int>(inside.x), static_cast<int>(inside.y), frame);
-      const double off = std::abs(static_cast<double>(found) - z);
-      out.of_bound = std::max(out.of_bound, off / depth_error(in_float_stepped, corners, p, frame));
-      out.of_product = std::max(out.of_product, off / depth_error(in_float, corners, p, frame));
-    }
-  }
+  const auto keeps = [](const WindowCorners& corners, int) { return test::twice_area(corners) >= 64; };
+  test::each_sample(11, reach, keeps, [&](const test::TriangleSample& at) {
+    if (at.least_share < 0.01) return;
+    const double off = std::abs(static_cast<double>(stepped(at.corners, at.x, at.y, at.frame)) - at.z);
+    out.of_bound = std::max(out.of_bound, off / depth_error(in_float_stepped, at.corners, at.p, at.frame));
+    out.of_product = std::max(out.of_product, off / depth_error(in_float, at.corners, at.p, at.frame));
+  });
   std::printf("%.3f of the bound, %.3f of that of in_float\n", out.of_bound, out.of_product);
   return out;
 }

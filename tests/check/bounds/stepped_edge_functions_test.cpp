@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <random>
+#include <limits>
 
 #include "capture/float_depth.h"
+#include "tests/check/bounds/sampled_triangles.h"
 
 namespace plumbline {
 namespace {
@@ -65,46 +66,31 @@ struct EdgeRatios {
 };
 EdgeRatios largest_edge_ratios(double reach) {
   using enum Conventions::DepthArithmetic;
-  std::mt19937 random(7);
-  const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   EdgeRatios out;
-  for (int n = 0; n < 300; ++n) {
-    const glm::dvec2 frame = glm::floor(glm::dvec2(std::exp2(in(3, 11)), std::exp2(in(3, 11))));
-    WindowCorners corners;
-    for (glm::dvec3& corner : corners) {
-      const auto along = [&](double side) { return side * (0.5 + reach * in(-0.5, 0.5)); };
-      corner = glm::dvec3(glm::vec3(along(frame.x), along(frame.y), in(0, 1)));
-    }
+  const auto keeps = [](WindowCorners& c, int n) {
     if (n % 2 == 0) {  // a sliver: the third corner lies beside the middle of the other two, or beside one of them
-      const glm::vec3 middle(n % 4 == 0 ? 0.5 * (corners[0] + corners[1]) : corners[1]);
-      corners[2] = glm::dvec3(middle + glm::vec3(1.5f, -1.5f, 0.1f));
+      const glm::vec3 middle(n % 4 == 0 ? 0.5 * (c[0] + c[1]) : c[1]);
+      c[2] = glm::dvec3(middle + glm::vec3(1.5f, -1.5f, 0.1f));
     }
-    if (n % 3 == 0) corners[0].z = 1, corners[1].z = corners[2].z = 0;
-    const glm::dvec2 a(corners[0]), e1 = glm::dvec2(corners[1]) - a, e2 = glm::dvec2(corners[2]) - a;
-    const double area = e1.x * e2.y - e2.x * e1.y;
-    if (std::abs(area) < 4 || std::max(glm::length(e1), glm::length(e2)) > std::abs(area)) continue;
-    const SteppedTriangle stepped(corners);
-    for (int k = 0; k < 64; ++k) {
-      const double s = in(0.02, 0.9), t = in(0.02, 0.96 - s);
-      const glm::dvec2 inside = glm::floor(a + s * e1 + t * e2), p = inside + 0.5, q = p - a;
-      const double b1 = (q.x * e2.y - e2.x * q.y) / area, b2 = (e1.x * q.y - q.x * e1.y) / area;
-      const bool is_seen = inside.x >= 0 && inside.y >= 0 && inside.x < frame.x && inside.y < frame.y;
-      if (!is_seen || std::min({b1, b2, 1 - b1 - b2}) < 0) continue;
-      const double z = corners[0].z + b1 * (corners[1].z - corners[0].z) + b2 * (corners[2].z - corners[0].z);
-      const int x = static_cast<int>(inside.x), y = static_cast<int>(inside.y);
-      double off = 0;
-      for (const float depth : stepped.depths(x, y)) off = std::max(off, std::abs(static_cast<double>(depth) - z));
-      out.of_bound = std::max(out.of_bound, off / depth_error(in_float_stepped_edges, corners, p, frame));
-      out.of_product = std::max(out.of_product, off / depth_error(in_float, corners, p, frame));
-      // Of the edge opposite corner 2, whose function is b2 times the area.
-      WindowBox box(a);
-      for (const glm::dvec3& corner : corners) box.add(glm::dvec2(corner));
-      const double moved = std::abs(static_cast<double>(stepped.at(x, y)[2]) - b2 * area) / glm::length(e1),
-                   bound = edge_displacement(in_float_stepped_edges, box, frame).x;
-      if (std::abs(b2 * area) <= glm::length(e1) * glm::length(frame))  // the edge's line passes through the frame
-        out.of_displacement = std::max(out.of_displacement, moved / bound);
-    }
-  }
+    if (n % 3 == 0) c[0].z = 1, c[1].z = c[2].z = 0;
+    const double longest = std::max(glm::length(glm::dvec2(c[1] - c[0])), glm::length(glm::dvec2(c[2] - c[0])));
+    return test::twice_area(c) >= std::max(4.0, longest);
+  };
+  test::each_sample(7, reach, keeps, [&](const test::TriangleSample& at) {
+    const SteppedTriangle stepped(at.corners);
+    double off = 0;
+    for (const float z : stepped.depths(at.x, at.y)) off = std::max(off, std::abs(static_cast<double>(z) - at.z));
+    out.of_bound = std::max(out.of_bound, off / depth_error(in_float_stepped_edges, at.corners, at.p, at.frame));
+    out.of_product = std::max(out.of_product, off / depth_error(in_float, at.corners, at.p, at.frame));
+    // The edge opposite corner 2: its function is b2 times the area.
+    WindowBox box{glm::dvec2(at.corners[0])};
+    for (const glm::dvec3& corner : at.corners) box.add(glm::dvec2(corner));
+    const double length = glm::length(glm::dvec2(at.corners[1] - at.corners[0])), function = at.b2 * at.area,
+                 moved = std::abs(static_cast<double>(stepped.at(at.x, at.y)[2]) - function) / length,
+                 bound = edge_displacement(in_float_stepped_edges, box, at.frame).x;
+    if (std::abs(function) <= length * glm::length(at.frame))  // the edge's line passes through the frame
+      out.of_displacement = std::max(out.of_displacement, moved / bound);
+  });
   std::printf("%.3f of the bound, %.3f of that of in_float; edges: %.3f\n", out.of_bound, out.of_product,
               out.of_displacement);
   return out;

@@ -74,7 +74,7 @@ TEST_F(LineOrPointWinners, StencilValuesAreThoseOfOpenTests) {
   EXPECT_TRUE(passes(against(0.8, 1, 1)));
 }
 
-// The same line, drawn twice, has one depth: less leaves the first, whatever a depth may be off.
+// A line drawn twice has one depth both times: less keeps the first, whatever error depths may have.
 TEST_F(LineOrPointWinners, OfALineDrawnAgainAreNotOpen) {
   const auto drawn_again = [&](double right, std::int32_t winner) {
     Capture c = drawn({line_of({2.5, 1.5}, {6.5, 3.5}, 1), line_of({2.5, 1.5}, {right, 3.5}, 9)}, {{{4, 3}}, {{4, 3}}});
