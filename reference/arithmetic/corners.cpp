@@ -60,6 +60,8 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   const Matrices<double> m = double_matrices(scene, draw);
   const glm::dmat4 clip = m.projection * m.model_view;
   if (out.perspective) out.distance_per_w = 1 / std::abs(m.projection[2][3]);
+  if (out.conventions.depth_of == Conventions::DepthOf::inv_w)
+    out.z_view_of_zero = z_view_of_zero(m.projection, out.conventions.clip_depth);
   const glm::dmat4 clip_size = sizes(m.projection) * sizes(m.model_view);
   const glm::dvec2 half(0.5 * scene.frame.width, 0.5 * scene.frame.height);
   const std::vector<std::uint32_t> point = weld(mesh);

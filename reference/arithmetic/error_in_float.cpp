@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,20 +54,26 @@ double error_near(const Projected& scene, const Triangle& t, std::span<const glm
   return out < 0 ? kInfinity : out;
 }
 
+// Window z where the number that is interpolated for depths is 0 (depth_error()); nullopt: it is window z.
+std::optional<double> z_of_zero(const Projected& scene, const Triangle& t) {
+  return scene.z_view_of_zero ? std::optional(to_window(t, *scene.z_view_of_zero)) : std::nullopt;
+}
+
 glm::dvec2 frame_of(const Projected& scene) { return {scene.width, scene.height}; }
 
 // Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and, where the near and
-// the far plane cut, depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel].
+// the far plane cut, depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel], counted `from`
+// z_of_zero().
 template <class Error>
 double error_of_pieces(const Projected& scene, const Triangle& t, double slope, const Near& near,
-                       const PieceAltitudes& altitudes, Error error) {
+                       const PieceAltitudes& altitudes, std::optional<double> from, Error error) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   // A plane through corners displaced by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
   const auto of_pieces = [&](const std::vector<glm::dvec2>& outline, double altitude, glm::dvec2 extent) {
     if (scene.depth_clamp) return error_near(scene, t, outline, near, error);
     const double of_near = error_near(scene, t, outline, {near.d, near.margin, kInfinity}, error);
     const double steeper = slope * (1 + 4 * t.reach / altitude);
-    return std::min(of_near, depth_error_of_pieces(arithmetic, altitude, steeper, extent, frame_of(scene)));
+    return std::min(of_near, depth_error_of_pieces(arithmetic, altitude, steeper, extent, frame_of(scene), from));
   };
   const double framed = of_pieces(t.outline, altitudes.framed, {scene.width, scene.height});
   if (t.guarded.extent == glm::dvec2(0)) return framed;
@@ -80,8 +87,11 @@ double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, c
   if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
   const glm::dvec2 p = glm::dvec2(d) + 0.5 * glm::dvec2(scene.width, scene.height);
   const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane));
-  const auto error = [&](const WindowCorners& corners) { return depth_error(arithmetic, corners, p, frame_of(scene)); };
-  const double out = t.cut ? error_of_pieces(scene, t, slope, {d, 0, kInfinity}, altitudes, error) : 0;
+  const std::optional<double> from = z_of_zero(scene, t);
+  const auto error = [&](const WindowCorners& corners) {
+    return depth_error(arithmetic, corners, p, frame_of(scene), from);
+  };
+  const double out = t.cut ? error_of_pieces(scene, t, slope, {d, 0, kInfinity}, altitudes, from, error) : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }
 
@@ -94,7 +104,7 @@ double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dve
     return shares_error(arithmetic, corners, p, frame_of(scene));
   };
   const Near near{d, glm::length(scene.sample), 0};  // d: the pixel's centre, where a sample is covered
-  const double of_pieces = t.cut ? error_of_pieces(scene, t, slope, near, altitudes, error) : 0,
+  const double of_pieces = t.cut ? error_of_pieces(scene, t, slope, near, altitudes, {}, error) : 0,
                out = std::isfinite(of_pieces) ? of_pieces : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace plumbline::math {
@@ -129,6 +130,14 @@ Matrices<double> float_matrices(const Scene& scene, const Draw& draw) {
   m.win_scale = glm::dvec3(glm::vec3(m.win_scale));
   m.win_translate = glm::dvec3(glm::vec3(m.win_translate));
   return m;
+}
+
+std::optional<double> z_view_of_zero(const glm::dmat4& projection, Conventions::ClipDepth volume) {
+  const glm::dvec4 z_row = glm::row(projection, 2), w_row = glm::row(projection, 3);
+  const bool is_perspective = w_row.z != 0;
+  const double z_ndc = is_perspective ? z_row.z / w_row.z : z_row.w / w_row.w;
+  if (z_row.x != z_ndc * w_row.x || z_row.y != z_ndc * w_row.y || !std::isfinite(z_ndc)) return std::nullopt;
+  return volume == Conventions::ClipDepth::zero_to_w ? z_ndc : 0.5 + 0.5 * z_ndc;
 }
 
 }  // namespace plumbline::math

@@ -101,10 +101,12 @@ struct Projected {
   std::vector<double> light_errors;  ///< one per light (color_error.h)
   bool perspective = true;
   double distance_per_w = 0;  ///< distance before the eye, by clip w [eye units]; 0: orthographic, w is 1 everywhere
-  bool depth_clamp = false;   ///< no near and far plane
-  Conventions conventions;    ///< of the renderer whose legal answers are wanted
-  double step = 0;            ///< h: largest displacement of a vertex by snapping, per axis [pixels]
-  double snap = 0;            ///< length of that displacement, sqrt(2) h [pixels]
+  /// z_view_of_zero() (matrices.h), for a renderer that interpolates 1/w for depths.
+  std::optional<double> z_view_of_zero;
+  bool depth_clamp = false;  ///< no near and far plane
+  Conventions conventions;   ///< of the renderer whose legal answers are wanted
+  double step = 0;           ///< h: largest displacement of a vertex by snapping, per axis [pixels]
+  double snap = 0;           ///< length of that displacement, sqrt(2) h [pixels]
   DepthFormat depth = DepthFormat::z24;
   /// Sample offset from the pixel's centre [pixels] (scene/antialias.h). The window is moved by -sample, so that a
   /// pixel's centre stands for its sample. Colours are evaluated at the true centre (to_centre()).

@@ -21,7 +21,15 @@ struct Conventions {
   enum class TieRule { any, left_bottom, left_top, right_bottom, right_top, inclusive, exclusive };
   enum class DepthRange { zero_to_one, minus_one_to_one, one_to_zero };
   enum class Depth { as_asked, z16, z24, z32f };
-  enum class DepthArithmetic { in_double, in_float, in_float_stepped, in_float_stepped_edges, in_float_from_origin };
+  enum class DepthArithmetic {
+    in_double,
+    in_float,
+    in_float_stepped,
+    in_float_stepped_edges,
+    in_float_from_origin,
+    in_float_from_origin_stepped
+  };
+  enum class DepthOf { z, inv_w };
   enum class Encoding { linear, srgb };
   enum class ClipDepth { minus_w_to_w, zero_to_w };
   enum class DepthPlanes { cut, clamped };
@@ -57,6 +65,7 @@ struct Conventions {
   Depth depth_format = Depth::as_asked;
   Rounding depth_rounding = Rounding::nearest;
   DepthArithmetic depth_arithmetic = DepthArithmetic::in_double;
+  DepthOf depth_of = DepthOf::z;
   Rounding color_rounding = Rounding::nearest;
   Encoding color_encoding = Encoding::linear;
   ClipDepth clip_depth = ClipDepth::minus_w_to_w;
@@ -77,7 +86,7 @@ struct Conventions {
   Alpha alpha = Alpha::stored;
 
   /// Names of the conventions that plumb learn could not find. Their values are OpenGL's, but that of depth_arithmetic,
-  /// where no depth is shown, is in_float_from_origin: the arithmetic of the largest errors.
+  /// where no depth is shown, is in_float_from_origin: of those without steps, the arithmetic of the largest errors.
   std::vector<std::string> open;
   /// Findings of plumb learn that no convention explains, a sentence each. mistaken() lists each of them as a mistake.
   std::vector<std::string> unexplained;
@@ -103,8 +112,14 @@ inline constexpr std::array<Name, 3> kNamesOf<Conventions::DepthRange> = {"zero_
 template <>
 inline constexpr std::array<Name, 4> kNamesOf<Conventions::Depth> = {"as_asked", "z16", "z24", "z32f"};
 template <>
-inline constexpr std::array<Name, 5> kNamesOf<Conventions::DepthArithmetic> = {
-    "in_double", "in_float", "in_float_stepped", "in_float_stepped_edges", "in_float_from_origin"};
+inline constexpr std::array<Name, 6> kNamesOf<Conventions::DepthArithmetic> = {"in_double",
+                                                                               "in_float",
+                                                                               "in_float_stepped",
+                                                                               "in_float_stepped_edges",
+                                                                               "in_float_from_origin",
+                                                                               "in_float_from_origin_stepped"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::DepthOf> = {"z", "inv_w"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Encoding> = {"linear", "srgb"};
 template <>
@@ -192,6 +207,8 @@ void each_choice(Visit visit) {
   visit(ConventionWords{"depth_format", "the depth buffer's format", false}, &C::depth_format);
   visit(ConventionWords{"depth_rounding", "how depths become codes", true}, &C::depth_rounding);
   visit(ConventionWords{"depth_arithmetic", "the numbers that depths are interpolated in", true}, &C::depth_arithmetic);
+  visit(ConventionWords{"depth_of", "the number that is interpolated for depths: window z, or 1/w", true},
+        &C::depth_of);
   visit(ConventionWords{"color_rounding", "how colours become codes", false}, &C::color_rounding);
   visit(ConventionWords{"color_encoding", "what codes of colours stand for", false}, &C::color_encoding);
   visit(ConventionWords{"clip_depth", "the view volume in z", false}, &C::clip_depth);

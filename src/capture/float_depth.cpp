@@ -36,6 +36,16 @@ double sum_of(glm::dvec2 v) { return v.x + v.y; }
 // edge_displacement() of an edge whose x is stepped [u of a pixel].
 double stepped_edge(double rows, double most_x) { return 2 * (std::ceil(rows) + 2) * most_x; }
 
+bool is_from_origin(Conventions::DepthArithmetic arithmetic) {
+  using enum Conventions::DepthArithmetic;
+  return arithmetic == in_float_from_origin || arithmetic == in_float_from_origin_stepped;
+}
+
+bool steps_depths(Conventions::DepthArithmetic arithmetic) {
+  using enum Conventions::DepthArithmetic;
+  return arithmetic == in_float_stepped || arithmetic == in_float_from_origin_stepped;
+}
+
 // Number of steps over a box of pixels, from any of its corners.
 double steps_over(glm::dvec2 box) { return sum_of(glm::ceil(box) + 2.0); }
 
@@ -99,7 +109,8 @@ double error_by_edge_equations(const WindowCorners& corners, glm::dvec2 p) {
   return or_infinite(10 * (out + std::abs(z) * c_terms) / std::abs(edges.area));
 }
 
-double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame) {
+double error_by_steps(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
+                      glm::dvec2 frame) {
   const Edges edges(corners);
   double slope = 0, most = 0;
   glm::dvec2 low(corners[0]), high(corners[0]);
@@ -110,7 +121,9 @@ double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 fra
     high = glm::max(high, edges.at[i]);
   }
   const glm::dvec2 way = glm::min(glm::max(glm::abs(p - low), glm::abs(high - p)), frame);  // from either side
-  const double of_edge = stepped_edge(way.y, std::max(std::abs(low.x), std::abs(high.x)));
+  const double of_edge = arithmetic == Conventions::DepthArithmetic::in_float_stepped
+                             ? stepped_edge(way.y, std::max(std::abs(low.x), std::abs(high.x)))
+                             : 0;
   return or_infinite(most * steps_over(way) + of_edge * std::abs(slope));
 }
 
@@ -144,13 +157,23 @@ double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::d
 }
 
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
-                   glm::dvec2 frame) {
+                   glm::dvec2 frame, std::optional<double> z_of_zero) {
   using enum Conventions::DepthArithmetic;
   if (arithmetic == in_double) return 0;
+  if (z_of_zero) {
+    WindowCorners from = corners;
+    double most = 0;
+    for (glm::dvec3& corner : from) {
+      corner.z -= *z_of_zero;
+      most = std::max(most, std::abs(corner.z));
+    }
+    const double by_inv_w = depth_error(arithmetic, from, p, frame) + kU * (std::abs(*z_of_zero) + 4 * most);
+    return std::max(by_inv_w, depth_error(arithmetic, corners, p, frame));
+  }
   double out = std::max(error_by_edge_functions(corners, p), error_by_plane(corners, p));
-  if (arithmetic == in_float_stepped) out += error_by_steps(corners, p, frame);
+  if (is_from_origin(arithmetic)) out = std::max(out, error_by_edge_equations(corners, p));
+  if (steps_depths(arithmetic)) out += error_by_steps(arithmetic, corners, p, frame);
   if (arithmetic == in_float_stepped_edges) out += error_by_stepped_edges(corners, p, frame);
-  if (arithmetic == in_float_from_origin) out = std::max(out, error_by_edge_equations(corners, p));
   return kU * (out + 1);
 }
 
@@ -171,28 +194,32 @@ double attribute_error(double shares, double most) {
 }
 
 // A triangle of altitude h has A >= h L, L its longest side, at most the window's diagonal D: no less than h^2. Depths
-// are at most 1, their gradient g at most 2 / h. Products of differences are at most L D, those of positions at most 4
-// times the window's area. A plane's differences of depths are at most g L, so that its gradient is off by 3 sqrt(2) g
-// L / h or less (both components together), over a distance of at most D. A stepped edge function is at most L (D + 2).
+// are at most 1, less z_of_zero at most `most`; their gradient g is at most 2 / h. Products of differences are at most
+// L D, those of positions at most 4 times the window's area. A plane's differences of depths are at most g L, so that
+// its gradient is off by 3 sqrt(2) g L / h or less (both components together), over a distance of at most D. A stepped
+// edge function is at most L (D + 2).
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window,
-                             glm::dvec2 frame) {
+                             glm::dvec2 frame, std::optional<double> z_of_zero) {
   using enum Conventions::DepthArithmetic;
   if (arithmetic == in_double) return 0;
   if (!(altitude > 0)) return kInfinity;
-  const double diagonal = glm::length(window), thin = diagonal / altitude,
+  const double from = z_of_zero.value_or(0), most = std::max({1.0, std::abs(from), std::abs(1 - from)}),
+               diagonal = glm::length(window), thin = diagonal / altitude,
                rise = std::min(slope, 2 / altitude) * diagonal;
-  const double by_edges = 4 * (3 * 2 * thin + 2 * thin + 1),
-               by_plane = 4 * (1 + 2 * rise + 3 * std::sqrt(2.0) * rise * thin),
-               by_equations = 10 * 30 * window.x * window.y / (altitude * altitude);
+  const double by_edges = 4 * most * (3 * 2 * thin + 2 * thin + 1),
+               by_plane = 4 * (most + 2 * rise + 3 * std::sqrt(2.0) * rise * thin),
+               by_equations = most * 10 * 30 * window.x * window.y / (altitude * altitude);
   const glm::dvec2 stepped = glm::min(window, frame);
-  const double of_edge = stepped_edge(stepped.y + 1, window.x) * rise / diagonal,
-               by_steps = arithmetic == in_float_stepped ? sum_of(stepped) + 6 + of_edge : 0,
+  const double of_edge = arithmetic == in_float_stepped ? stepped_edge(stepped.y + 1, window.x) * rise / diagonal : 0,
+               by_steps = steps_depths(arithmetic) ? most * (sum_of(stepped) + 6) + of_edge : 0,
                by_stepped_edges =
-                   3 * ((4 * std::numbers::sqrt2 + steps_over(stepped + 2.0)) * (diagonal + 3) + sum_of(stepped) + 8) /
+                   most * 3 *
+                   ((4 * std::numbers::sqrt2 + steps_over(stepped + 2.0)) * (diagonal + 3) + sum_of(stepped) + 8) /
                    altitude,
                steps = arithmetic == in_float_stepped_edges ? by_stepped_edges : by_steps,
-               in_differences = std::max(by_edges, by_plane) + steps;
-  return kU * ((arithmetic == in_float_from_origin ? std::max(in_differences, by_equations) : in_differences) + 1);
+               in_differences = std::max(by_edges, by_plane),
+               of_depth = is_from_origin(arithmetic) ? std::max(in_differences, by_equations) : in_differences;
+  return kU * (of_depth + steps + (z_of_zero ? 1 + std::abs(from) + 4 * most : 1));
 }
 
 }  // namespace plumbline

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include <glm/glm.hpp>
 
@@ -54,11 +55,12 @@ struct WindowBox {
 /// - Otherwise 0.
 glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, const WindowBox& box, glm::dvec2 frame);
 
-/// Error that stepping z from a corner to p adds to a plane's error [u of window z]: a sum for each row along an edge
-/// and for each column, of numbers of at most the largest |z_i|; and |dz/dx| times edge_displacement(), as the edge's x
-/// is stepped, too. `frame`: its size [pixels]. One product, whose error error_by_plane() counts, replaces the steps
-/// over rows and columns beyond the frame.
-double error_by_steps(const WindowCorners& corners, glm::dvec2 p, glm::dvec2 frame);
+/// Error that stepping z to p adds to a plane's error [u of window z]: a sum for each row and for each column, of
+/// numbers of at most the largest |z_i|; in_float_stepped: and |dz/dx| times edge_displacement(), as the edge's x is
+/// stepped, too. `frame`: its size [pixels]. One product, whose error error_by_plane() counts, replaces the steps over
+/// rows and columns beyond the frame.
+double error_by_steps(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
+                      glm::dvec2 frame);
 
 /// Error of sum z_i e_i / A, or of z_k + sum (z_i - z_k) e_i / A over two corners (k the third, whichever it is), at p
 /// beyond error_by_edge_functions() [u of window z], where each e_i is added up from a
@@ -70,9 +72,15 @@ double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::d
 /// Error of a depth at p [window z], plus u for its code: a product and a sum, each off by half a unit in the last
 /// place of a number below 1. in_double: 0. in_float: the larger of error_by_edge_functions() and error_by_plane().
 /// in_float_stepped: the same, plus error_by_steps(). in_float_stepped_edges: the same, plus error_by_stepped_edges().
-/// in_float_from_origin: the largest of the two and of error_by_edge_equations().
+/// in_float_from_origin: the largest of the two and of error_by_edge_equations(). in_float_from_origin_stepped: the
+/// same, plus the part of error_by_steps() without edges, which are not stepped.
+///
+/// `z_of_zero`: c, the window z where 1/w is 0, of a renderer that interpolates 1/w and computes window z as c - k / w
+/// (without perspective: c + k d, d the distance before the eye); nullopt: it interpolates window z. Its errors, the
+/// larger of those of window z and these: in place of z_i, |z_i - c| counts. A corner's 1/w, k, their product, and the
+/// reciprocal in a buffer of w add a rounding each: 4 u of the largest |z_i - c|; c adds u of |c|.
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
-                   glm::dvec2 frame);
+                   glm::dvec2 frame, std::optional<double> z_of_zero = {});
 
 /// Sum of the errors of the three window barycentrics at p: each barycentric is bounded as a depth that is 1 at one
 /// corner and 0 at the others.
@@ -88,6 +96,6 @@ double attribute_error(double shares, double most);
 /// and whose depth gradients are at most `slope` [window z per pixel]. A `slope` above 2 / altitude counts as 2 /
 /// altitude: no such triangle is steeper.
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window,
-                             glm::dvec2 frame);
+                             glm::dvec2 frame, std::optional<double> z_of_zero = {});
 
 }  // namespace plumbline

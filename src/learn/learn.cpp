@@ -26,6 +26,7 @@ const std::vector<Probe>& probes() {
       {learn_corners, {"attribute_corners"}},
       {learn_depth_corners, {"depth_corners"}},
       {learn_depth_arithmetic, {"depth_arithmetic"}},
+      {learn_depth_of, {"depth_of"}},
       {learn_provoking_vertex, {"provoking_vertex"}},
       {learn_alpha, {"alpha"}},
       {learn_alpha_test, {"alpha_test"}},
@@ -108,9 +109,11 @@ Learned learn(Renderer& renderer) {
 }
 
 std::string learned_text(const Learned& learned) {
-  std::string out = fmt::format("{:<18} {:<14} {}\n", "convention", "found", "evidence");
+  std::size_t width = 14;
+  for (const LearnedRow& row : learned.rows) width = std::max(width, row.value.size());
+  std::string out = fmt::format("{:<18} {:<{}} {}\n", "convention", "found", width, "evidence");
   for (const LearnedRow& row : learned.rows)
-    out += fmt::format("{:<18} {:<14} {}\n", row.name, row.value, row.evidence);
+    out += fmt::format("{:<18} {:<{}} {}\n", row.name, row.value, width, row.evidence);
   for (const std::string& line : not_accepted(learned.conventions)) out += fmt::format("{}\n", line);
   return out;
 }

@@ -48,6 +48,31 @@ TEST(LearnDepths, InFloatAreFound) {
   EXPECT_NE(std::ranges::find(none.open, "depth_arithmetic"), none.open.end());
 }
 
+// Depths of a steep view go by c - k / w, 1/w a float; or are wrong by more than that.
+TEST(LearnDepths, OfInvWAreFound) {
+  const auto learned_of = [](double factor, double codes) {
+    OfAlteredScenes renderer;
+    renderer.after = [=](const Scene& scene, Capture& c) {
+      constexpr double kOfZero = 513;  // of the probe's projection
+      for (double& z : c.planes.depth.values()) {
+        if (scene.name == "probe/depth_of") {
+          z = kOfZero - factor * static_cast<double>(static_cast<float>(2 * (kOfZero - z) / kOfZero)) * kOfZero / 2;
+        } else if (z < 1 && scene.name.starts_with("probe/depth_arithmetic")) {
+          z += codes / 16777215;
+        }
+      }
+    };
+    return learn(renderer).conventions;
+  };
+  EXPECT_EQ(learned(pipeline::make_pipeline()).depth_of, C::DepthOf::z);
+  EXPECT_EQ(learned_of(1, 1).depth_of, C::DepthOf::inv_w);
+  for (const C& none : {learned_of(1, 0), learned_of(1.0001, 1)}) {  // in double; beyond all roundings
+    EXPECT_EQ(none.depth_of, C::DepthOf::z);
+    EXPECT_TRUE(
+        std::ranges::any_of(none.unexplained, [](const std::string& line) { return line.starts_with("depth_of: "); }));
+  }
+}
+
 // (unsigned)(z * 16777215.0f + 0.5f): from 1/2 on the product is a whole number, and the sum the even one beside it.
 TEST(LearnDepths, ARoundingThatFloatsHideAt24BitsIsThatOf16) {
   OfAlteredScenes renderer;

@@ -79,6 +79,8 @@ TEST(Learn, DepthsOfAVolumeFromZeroAreRoundedFromTheExactOnes) {
   OfAlteredScenes renderer;
   renderer.before = [](Scene& scene) {
     if (auto* volume = std::get_if<Orthographic>(&scene.projection)) volume->near = (volume->near + volume->far) / 2;
+    if (auto* volume = std::get_if<Perspective>(&scene.projection))
+      volume->near = 2 * volume->near * volume->far / (volume->near + volume->far);  // where z_ndc is 0
   };
   const C found = learn(renderer).conventions;
   EXPECT_EQ(found.clip_depth, C::ClipDepth::zero_to_w);

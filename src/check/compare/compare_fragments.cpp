@@ -15,6 +15,7 @@
 #include "check/compare/compare_records.h"
 #include "check/compare/shared_edges.h"
 #include "check/compare/window_area.h"
+#include "reference/arithmetic/matrices.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -205,10 +206,34 @@ Measurement compare_open_covered(const Capture& candidate, const Records<double>
   return illegal.differing > 0 ? illegal : compare_covered(candidate.records, reference);
 }
 
+namespace {
+
+// Window z where 1/w is 0, for a candidate that interpolates 1/w for depths (depth_error()).
+class ZOfZero {
+ public:
+  ZOfZero(const Scene& scene, const Conventions& conventions) : draws_(scene) {
+    if (conventions.depth_of != Conventions::DepthOf::inv_w || scene.draws.empty()) return;
+    const glm::dmat4 projection = math::double_matrices(scene, scene.draws.front()).projection;
+    z_view_ = math::z_view_of_zero(projection, conventions.clip_depth);
+  }
+  std::optional<double> in_draw_of(std::uint32_t primitive) const {
+    const Draw* draw = z_view_ ? draws_.draw(primitive) : nullptr;
+    if (draw == nullptr) return std::nullopt;
+    return std::lerp(double{draw->depth_range.near}, double{draw->depth_range.far}, *z_view_);
+  }
+
+ private:
+  DrawIndex draws_;
+  std::optional<double> z_view_;
+};
+
+}  // namespace
+
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions, double from_origin) {
   const double middle = middle_of(conventions.depth_rounding);
   const OffsetErrors offsets(scene, conventions);
+  const ZOfZero z_of_zero(scene, conventions);
   const glm::dvec2 frame(scene.frame.width, scene.frame.height);
   // Error of a foreign depth in float [window z]: by the declared arithmetic; else, in z32f, by planes from the
   // window's origin.
@@ -218,7 +243,8 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
     const double by_plane = from_origin * u * (bounds_from_origin(t, c.x, c.y).depth + offsets.of(t));
     if (!is_declared || t.corners < 3) return by_plane;
     const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
-    return std::max(by_plane + u, depth_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}, frame));
+    return std::max(by_plane + u, depth_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}, frame,
+                                              z_of_zero.in_draw_of(t.primitive)));
   };
   return each_fragment(
       "depths", "step", candidate, candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {

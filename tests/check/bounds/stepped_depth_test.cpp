@@ -70,11 +70,10 @@ TEST(SteppedDepths, AreWithinTheirBoundWhereCornersLieBeyondTheFrame) {
 TEST(SteppedDepths, StepInTheFrameAlone) {
   const WindowCorners corners = {{{0, -4000, 0}, {100, -4000, 0}, {50, 100, 1}}};
   const glm::dvec2 p(50.5, 50.5), frame(100, 100);
-  EXPECT_LT(10 * error_by_steps(corners, p, frame), error_by_steps(corners, p, kNoSides));
+  constexpr auto kStepped = Conventions::DepthArithmetic::in_float_stepped;
+  EXPECT_LT(10 * error_by_steps(kStepped, corners, p, frame), error_by_steps(kStepped, corners, p, kNoSides));
   const glm::dvec2 extent(4000, 4000);
-  const auto of_pieces = [&](glm::dvec2 sides) {
-    return depth_error_of_pieces(Conventions::DepthArithmetic::in_float_stepped, 2000, 1e-5, extent, sides);
-  };
+  const auto of_pieces = [&](glm::dvec2 sides) { return depth_error_of_pieces(kStepped, 2000, 1e-5, extent, sides); };
   EXPECT_LT(10 * of_pieces(frame), of_pieces(kNoSides));
 }
 
