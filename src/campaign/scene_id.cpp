@@ -12,7 +12,7 @@
 namespace plumbline::campaign {
 
 std::string_view name_of(Generator generator) {
-  constexpr std::string_view kNames[] = {"ordinary", "hard", "plain", "flat"};
+  constexpr std::string_view kNames[] = {"ordinary", "hard", "plain", "flat", "inside"};
   return kNames[static_cast<std::size_t>(generator)];
 }
 
@@ -43,6 +43,7 @@ std::string scene_text(const SceneId& id) {
     case Generator::ordinary: return ordinary::ordinary_scene(choices, fmt::format("Ordinary scene {}.", seeds));
     case Generator::plain: return hard::plain_scene(choices, fmt::format("Plain scene {}.", seeds));
     case Generator::flat: return hard::flat_scene(choices, fmt::format("Flat scene {}.", seeds));
+    case Generator::inside: return hard::inside_scene(choices, fmt::format("Inside scene {}.", seeds));
     case Generator::hard: break;
   }
   return hard::hard_scene(choices, fmt::format("Hard scene {}.", seeds));

@@ -10,10 +10,11 @@
 namespace plumbline::campaign {
 
 /// Generator of a scene. `ordinary` and `hard` are independent: each may draw states that the other never draws.
-/// `plain`: opaque triangles in the geometry of `hard`, for renderers of no more; `flat`: of one colour a draw, without
-/// a depth test.
-enum class Generator { ordinary, hard, plain, flat };
-inline constexpr Generator kGenerators[] = {Generator::ordinary, Generator::hard, Generator::plain, Generator::flat};
+/// `plain`: opaque triangles in the geometry of `hard`, for renderers of no more; `inside`: such triangles in
+/// perspective, inside the view volume; `flat`: of one colour a draw, without a depth test.
+enum class Generator { ordinary, hard, plain, flat, inside };
+inline constexpr Generator kGenerators[] = {Generator::ordinary, Generator::hard, Generator::plain, Generator::flat,
+                                            Generator::inside};
 std::string_view name_of(Generator generator);
 
 /// Name of a scene: its generator and its seeds. The first seed makes a scene; each further seed changes a few of its

@@ -108,9 +108,9 @@ void add(CLI::App& command, CampaignOptions& o) {
        "report what the journals hold");
   command
       .add_option("--generator", o.generator,
-                  "ordinary, hard, both, plain or flat: who writes the scenes; plain ones are opaque triangles alone, "
-                  "flat ones of one colour a draw and without a depth test")
-      ->check(CLI::IsMember({"ordinary", "hard", "both", "plain", "flat"}))
+                  "ordinary, hard, both, plain, inside or flat: who writes the scenes; plain ones are opaque triangles "
+                  "alone, inside ones in perspective, cut by no plane, flat ones of one colour and no depth test")
+      ->check(CLI::IsMember({"ordinary", "hard", "both", "plain", "inside", "flat"}))
       ->capture_default_str();
   command
       .add_option("--round", o.round,

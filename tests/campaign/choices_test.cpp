@@ -28,6 +28,7 @@ TEST(SceneText, IsTheSameForTheSameSeed) {
   EXPECT_EQ(hash_of_scenes(Generator::hard), 18330438398356533061u);
   EXPECT_EQ(hash_of_scenes(Generator::plain), 7565363859689327236u);
   EXPECT_EQ(hash_of_scenes(Generator::flat), 7286729620011264260u);
+  EXPECT_EQ(hash_of_scenes(Generator::inside), 9902523354087685519u);
 }
 
 TEST(SceneText, OfTwoSeedsIsAFewChoicesFromTheFirst) {

@@ -1,4 +1,5 @@
 // The campaigns' scenes of each generator: each is a scene file that is read and holds, in any order.
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 
 #include "base/temporary_path.h"
 #include "campaign/scene_id.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/campaign/scene_trial.h"
 #include "tests/extent.h"
 #include "tests/text_file.h"
@@ -59,6 +61,21 @@ TEST_F(ScenesHold, OrdinaryOnesAgainstAllReferences) { expect_hold(Generator::or
 TEST_F(ScenesHold, HardOnesAgainstAllReferences) { expect_hold(Generator::hard, one_of(133)); }
 TEST_F(ScenesHold, PlainOnesAgainstAllReferences) { expect_hold(Generator::plain, one_of(400)); }
 TEST_F(ScenesHold, FlatOnesAgainstAllReferences) { expect_hold(Generator::flat, one_of(400)); }
+TEST_F(ScenesHold, InsideOnesAgainstAllReferences) { expect_hold(Generator::inside, one_of(400)); }
+
+// Each triangle keeps its three corners, none of them made by a cut.
+TEST_F(ScenesHold, InsideOnesAreCutByNoPlane) {
+  Request request;
+  request.records = StageSet::all();
+  for (std::uint64_t seed = 1; seed <= kSeeds; seed += one_of(97)) {
+    const Scene scene = scene_of({Generator::inside, {seed}});
+    const ClipPolygons<double> clipped = pipeline::make_pipeline()->capture(scene, request).records.polygons;
+    std::size_t primitives = 0;
+    for (const DrawRange& draw : draw_ranges(scene)) primitives += draw.primitive_count;
+    EXPECT_EQ(clipped.polygons.size(), primitives) << seed;
+    EXPECT_TRUE(std::ranges::none_of(clipped.vertices, [](const auto& vertex) { return vertex.cut; })) << seed;
+  }
+}
 
 // The rows that plumb leaves of each scene, as text, for what its arguments name.
 std::vector<std::string> rows(const std::vector<fs::path>& scenes, const fs::path& into, const std::string& arguments) {

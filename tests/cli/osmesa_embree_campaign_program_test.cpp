@@ -14,7 +14,10 @@ TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
   EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n      ")) << run.text;
   EXPECT_TRUE(run.says("states: 0 of ")) << "of scenes that were not drawn: " << run.text;
   EXPECT_TRUE(run.says("most scenes ask for more than is drawn; --generator plain ")) << run.text;
-  EXPECT_TRUE(run.says(" opaque triangles alone,\n--generator flat triangles of one colour a draw")) << run.text;
+  EXPECT_TRUE(
+      run.says(" opaque triangles alone,\n--generator inside opaque triangles in perspective that no plane "
+               "cuts,\n--generator flat triangles of one colour a draw"))
+      << run.text;
 }
 
 // The C renderer draws opaque triangles by OpenGL's rules, and no texture, fog or line.
@@ -28,6 +31,9 @@ TEST_F(Campaign, OfAProgramThatDrawsTrianglesAloneHasScenesForIt) {
   const Outcome flat = campaign("f", "--seeds 1..20 --generator flat --against exact,embree" + program);
   EXPECT_EQ(flat.code, 0) << flat.text;
   EXPECT_TRUE(flat.says("flat scenes: 20\n")) << flat.text;
+  const Outcome inside = campaign("i", "--seeds 1..20 --generator inside --against exact,embree" + program);
+  EXPECT_EQ(inside.code, 0) << inside.text;
+  EXPECT_TRUE(inside.says("inside scenes: 20\n")) << inside.text;
 }
 
 TEST_F(Campaign, OfAProgramNamesMistakesAmongItsConventions) {

@@ -17,6 +17,9 @@ std::string hard_scene(campaign::Choices choices, const std::string& description
 /// the colours of their corners or in one colour, unlit, without textures, by the depth test `less`, none culled.
 std::string plain_scene(campaign::Choices choices, const std::string& description);
 
+/// Text of a plain scene in perspective whose triangles lie inside the view volume: for a renderer that does not clip.
+std::string inside_scene(campaign::Choices choices, const std::string& description);
+
 /// Text of a plain scene whose draws have one colour each and pass every depth test: for a renderer that has no depth
 /// buffer yet, and interpolates nothing.
 std::string flat_scene(campaign::Choices choices, const std::string& description);

@@ -60,7 +60,7 @@ HardMesh written_out(Builder& b) {
 HardMesh quad(Builder& b) {
   Choices& c = b.choose;
   Object out;
-  const bool unit = c.chance(30);
+  const bool unit = c.chance(30) && !b.view.clamps;
   if (!unit) {
     const double w = b.view.width, h = b.view.height, x0 = w * c.of({0, 0.25, -0.5}), x1 = w * c.of({1, 0.75, 1.5}),
                  y0 = h * c.of({0, 0.25, -0.5}), y1 = h * c.of({1, 0.75, 1.5});
@@ -131,7 +131,7 @@ HardMesh mesh(Builder& b) {
 
 HardMesh triangles_mesh(Builder& b) {
   switch (b.choose.count(0, 7)) {
-    case 0: return b.one_color ? quad(b) : made(b);  // a soup has colours
+    case 0: return b.one_color || b.view.clamps ? quad(b) : made(b);  // a soup has colours, and leaves the view
     case 1: return quad(b);
     default: return written_out(b);
   }

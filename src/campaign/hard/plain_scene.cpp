@@ -1,5 +1,6 @@
 // Scenes of opaque, unlit triangles in the geometry of hard scenes: no alpha but 1, and nothing culled. Plain scenes
-// are drawn by a depth test; in flat scenes each draw has one colour, and a later draw lies over an earlier one.
+// are drawn by a depth test; so are inside scenes, in perspective, whose triangles no plane cuts; in flat scenes each
+// draw has one colour, and a later draw lies over an earlier one.
 #include "campaign/hard/builder.h"
 #include "campaign/hard/hard_scene.h"
 
@@ -46,6 +47,12 @@ std::string scene_of_triangles(Builder& b, const std::string& description) {
 
 std::string plain_scene(campaign::Choices choices, const std::string& description) {
   Builder b(std::move(choices));
+  return scene_of_triangles(b, description);
+}
+
+std::string inside_scene(campaign::Choices choices, const std::string& description) {
+  Builder b(std::move(choices));
+  b.view.clamps = true;
   return scene_of_triangles(b, description);
 }
 

@@ -44,6 +44,9 @@ void choose_planes(Builder& b) {
   Choices& c = b.choose;
   b.view.near = c.of({1, 1, 1, 0.1, 0.5, 0.01, 3, 0.0001});
   b.view.far = c.chance(15) ? b.view.near * c.of({1.0001, 1.01, 2}) : c.of({6, 10, 20, 100, 100, 1000, 100000});
+  if (!b.view.clamps) return;
+  b.view.near = std::max(b.view.near, 0.1);  // positions and depths in float stay inside
+  b.view.far = std::clamp(b.view.far, 1.01 * b.view.near, 1000 * b.view.near);
 }
 
 Object box(double left, double right, double bottom, double top) {
@@ -70,8 +73,9 @@ Object opengl(Builder& b) {
   choose_planes(b);
   const auto with_planes = [&](Object out) { return out.put("near", sign * v.near).put("far", sign * v.far); };
   v.aspect = static_cast<double>(v.width) / v.height;
-  const std::string_view kind = c.word({"perspective", "perspective", "perspective", "orthographic", "pixels", "pixels",
-                                        turned ? "perspective" : "frustum"});
+  const std::string_view kind = v.clamps ? "perspective"
+                                         : c.word({"perspective", "perspective", "perspective", "orthographic",
+                                                   "pixels", "pixels", turned ? "perspective" : "frustum"});
   if (kind == "pixels") {
     v.near = 1, v.far = c.of({9, 10, 17, 100});
     return Object("orthographic", with_planes(pixels(b)).text());
@@ -96,6 +100,13 @@ Object opengl(Builder& b) {
 }  // namespace
 
 Point View::at(double x, double y, double distance) const {
+  if (clamps) {
+    const auto inside = [](double v, double low, double high) {
+      const double margin = (high - low) / 100;
+      return std::clamp(v, low + margin, high - margin);
+    };
+    x = inside(x, 0, width), y = inside(y, 0, height), distance = inside(distance, near, far);
+  }
   const double h = half_height + slope * distance, across = (2 * x / width - 1) * h * aspect,
                above = (2 * y / height - 1) * h;
   Point out = {x, y, eye[2] - distance};  // of pixels
