@@ -8,6 +8,7 @@
 
 #include "base/atomic_path.h"
 #include "report/runs/json_report.h"
+#include "report/text/diagnosis_text.h"
 #include "report/text/safe_text.h"
 #include "report/text/table.h"
 #include "tests/check/fixtures.h"
@@ -51,6 +52,16 @@ TEST_F(Reports, ATableRowSaysAll) {
   for (const char* part : {"scene", "reference", "stage", "outcome", "pixels", "differing", "ambiguous"}) {
     EXPECT_TRUE(contains(table_head(), part)) << part;
   }
+}
+
+TEST_F(Reports, ADiagnosisNamesStagesThatFailed) {
+  check::Diagnosis none;
+  none.verdict = verdict_of({compared(Outcome::equal)});
+  EXPECT_TRUE(contains(diagnosis_text(none), "first different stage: none\n"));
+  Comparison failed = not_compared(Outcome::failed, "window.p_win: 1 of 3 corners are not finite");
+  failed.stage = Stage::window;
+  none.verdict = verdict_of({compared(Outcome::equal), failed, failed});
+  EXPECT_TRUE(contains(diagnosis_text(none), "first different stage: none; failed: window\n"));
 }
 
 TEST_F(Reports, ASceneThatHoldsIsALine) {

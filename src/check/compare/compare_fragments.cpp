@@ -342,6 +342,7 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
   const DrawIndex draws(scene);
   // A frame of codes holds nothing beyond [0, 1]: a foreign renderer may clamp its colours before.
   const bool may_clamp = copies > 0 && scene.frame.color != ColorFormat::rgba32f;
+  const double unseen = may_clamp ? u / (2 * color_scale(scene.frame.color)) : 0;
   return each_fragment(
       "colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
         const Covered& c = candidate.covered[i];
@@ -351,7 +352,7 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
         if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
         const Draw* draw = draws.draw(candidate.triangles[c.triangle].primitive);
         if (draw == nullptr || is_plain(scene, *draw))
-          return add(meter, a, b, Vec4<double>(u), 0, place, copies * u * glm::abs(b));
+          return add(meter, a, b, Vec4<double>(u), 0, place, copies * u * glm::abs(b) + unseen);
         const Vec4<double> bound = shade_error(scene, *draw, shade_inputs_of(candidate, i), {}, {1});
         for (int k = 0; k < 4; ++k) {
           if (!std::isfinite(bound[k])) {  // a light may come or go
@@ -359,9 +360,9 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
             const bool is_legal = std::isfinite(a[k]) && (may_exceed_one(scene, *draw) || (a[k] >= 0 && a[k] <= 1));
             meter.value(is_legal ? 0 : kInfinite, 0, place, a[k], b[k]);
           } else if (bound[k] == 0) {
-            meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k], copies * std::abs(b[k]));
+            meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k], copies * std::abs(b[k]) + unseen / u);
           } else {
-            meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
+            meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k], unseen / bound[k]);
           }
         }
       });

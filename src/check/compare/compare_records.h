@@ -113,7 +113,7 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
                                glm::dvec2 frame = kNoSides);
 /// Compares shaded colours. Plain draws: bit for bit (as floats), but for `copies` u of the value. Other draws:
 /// `factor` u of each step's magnitude (shade_bounds.h). With `copies` above 0, in a frame of codes, colours may be
-/// clamped to [0, 1].
+/// clamped to [0, 1], and a difference of u / 2 codes is allowed: half a float's step beside 1/2, where codes are rounded.
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, double copies = 0);
 /// Compares a varying that is not lit at the vertices, bit for bit (as floats), as stage light only copies it.

@@ -48,7 +48,13 @@ std::string first_line(const check::Diagnosis& diagnosis) {
   if (!diagnosis.first && !diagnosis.wrong.empty()) {
     return fmt::format("none; legal, but not by the tie rule that is judged by: {}", stage_names(diagnosis.wrong));
   }
-  if (!diagnosis.first) return "none";
+  if (!diagnosis.first) {
+    std::vector<Stage> failed;
+    for (const Comparison& c : diagnosis.verdict.comparisons) {
+      if (c.outcome == Outcome::failed && std::ranges::count(failed, c.stage) == 0) failed.push_back(c.stage);
+    }
+    return failed.empty() ? "none" : fmt::format("none; failed: {}", stage_names(failed));
+  }
   std::vector<std::string> by;
   for (const Comparison& c : diagnosis.verdict.comparisons) {
     if (c.stage == *diagnosis.first && c.outcome == Outcome::different) by.push_back(title_of(c.judge));

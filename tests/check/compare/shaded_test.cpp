@@ -30,5 +30,28 @@ TEST(ShadedBeyondOne, MayBeClampedByAForeignRendererWhereTheFrameHoldsCodes) {
   EXPECT_TRUE(fails(compared(ColorFormat::rgba8, 0, clamped))) << "ours";
 }
 
+// No code shows a difference of half a float's step beside 1/2.
+TEST(ShadedBelowCodes, MayBeZeroInAForeignRendererWhereTheFrameHoldsCodes) {
+  const double unseen = kU / (2 * 255);
+  const auto black = [](ColorFormat format, double copies, double expected, double value) {
+    Records<double> wanted;
+    wanted.triangles = {triangle_of({{{2, 2, 0.25}, {8, 2, 0.5}, {2, 8, 0.75}}}, {1, 0.5, 0.25}, 0)};
+    wanted.covered = {{0, 3, 3}};
+    wanted.shaded = {{{0.5, expected, 0, 1}}};
+    Records<double> candidate = wanted;
+    candidate.shaded[0].color.g = value;
+    Scene scene;
+    scene.frame.color = format;
+    return compare_shaded(scene, candidate, wanted, 0, copies);
+  };
+  EXPECT_TRUE(passes(black(ColorFormat::rgba8, 4, 4e-17, 0)));
+  EXPECT_TRUE(passes(black(ColorFormat::rgba8, 4, 0.99 * unseen, 0)));
+  EXPECT_TRUE(fails(black(ColorFormat::rgba8, 4, 1.01 * unseen, 0)));
+  EXPECT_TRUE(fails(black(ColorFormat::rgba16, 4, 0.99 * unseen, 0))) << "finer codes";
+  EXPECT_TRUE(fails(black(ColorFormat::rgba32f, 4, 4e-17, 0)));
+  EXPECT_TRUE(fails(black(ColorFormat::rgba8, 0, 4e-17, 0))) << "ours";
+  EXPECT_TRUE(fails(black(ColorFormat::rgba8, 4, 4e-17, std::nan(""))));
+}
+
 }  // namespace
 }  // namespace plumbline::check
