@@ -55,6 +55,18 @@ PixelList box_begun_late_by(const Triangle& t, const PixelBounds& box) {
   return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0 + columns, b.y0 + rows, b.x1, b.y1}, box);
 }
 
+PixelList box_filled(const Triangle& t, const PixelBounds& box) {
+  return pipeline::covered_pixels({}, pipeline::pixel_bounds(t), box);
+}
+
+// Coverage by the edges but the one of that number.
+template <int number>
+PixelList edge_missing(const Triangle& t, const PixelBounds& box) {
+  pipeline::Edges edges = pipeline::edges_of(t);
+  edges.at_origin[number] = edges.step_x[number] = edges.step_y[number] = 0;
+  return pipeline::covered_pixels(edges, pipeline::pixel_bounds(t), box);
+}
+
 // Coverage without triangles of det < 1, twice the area in pixels (ssloy/tinyrenderer, 87bc715, our_gl.cpp).
 PixelList small_dropped(const Triangle& t, const PixelBounds& box) {
   const bool is_small = std::abs(snapped_area(t)) < std::int64_t{kSubpixel} * kSubpixel;
@@ -258,6 +270,14 @@ constexpr std::array kRaster = {
                 put<&Stages::coverage, triangles_by<at_corner>>, "hrydgard/ppsspp#9681"),
     stage_fault("coverage.box_one_short", "the bounding box lacks its last column and row",
                 put<&Stages::coverage, triangles_by<box_short_by<1, 1>>>),
+    stage_fault("coverage.box_filled", "the whole bounding box of a triangle is covered",
+                put<&Stages::coverage, triangles_by<box_filled>>),
+    stage_fault("coverage.first_edge_missing", "the first edge of a triangle is not tested",
+                put<&Stages::coverage, triangles_by<edge_missing<0>>>),
+    stage_fault("coverage.second_edge_missing", "the second edge of a triangle is not tested",
+                put<&Stages::coverage, triangles_by<edge_missing<1>>>),
+    stage_fault("coverage.third_edge_missing", "the third edge of a triangle is not tested",
+                put<&Stages::coverage, triangles_by<edge_missing<2>>>),
     stage_fault("coverage.last_column_lost", "the bounding box lacks its last column",
                 put<&Stages::coverage, triangles_by<box_short_by<1, 0>>>),
     stage_fault("coverage.last_row_lost", "the bounding box lacks its last row",

@@ -107,6 +107,10 @@ void add_files(const FrameFormat& frame, std::vector<KnownFault>& out) {
   }
   add("file.bgr", "red and blue are swapped",
       of_pixels([](glm::vec4& color, double*) { std::swap(color.r, color.b); }));
+  add("file.green_of_red", "red is written for green, too",
+      of_pixels([](glm::vec4& color, double*) { color.g = color.r; }));
+  add("file.blue_of_green", "green is written for blue, too",
+      of_pixels([](glm::vec4& color, double*) { color.b = color.g; }));
   add("file.depth_of_ndc", "depths are in [-1, 1], those of normalized device coordinates",
       change_depth([](double z) { return 2 * z - 1; }));
   add("file.background_at_0", "the background has depth 0",

@@ -57,6 +57,19 @@ TEST(KnownFaults, OfCodesForNumbersAreThoseOfFramesBeyondOne) {
   EXPECT_TRUE(found.whole) << found.text;
 }
 
+// A channel that is written twice, an edge that is not tested, a bounding box that is filled.
+TEST(KnownFaults, OfFirstRasterizersAreNamed) {
+  const Scene scene = suite_scene("coverage/shared_edges");
+  const std::vector<KnownFault> known = known_faults(scene, {});
+  for (const char* name :
+       {"file.green_of_red", "file.blue_of_green", "coverage.box_filled", "coverage.first_edge_missing",
+        "coverage.second_edge_missing", "coverage.third_edge_missing"}) {
+    const Lookalikes found = lookalikes(scene, {draw_with(std::vector{find(known, name)}, scene, {}), {}, {}});
+    EXPECT_TRUE(found.likely.ends_with(std::string("(fault ") + name + ")")) << name << '\n' << found.text;
+    EXPECT_TRUE(found.whole) << name;
+  }
+}
+
 // The Pikuma course's depth buffer: 1/w, of which the largest is kept.
 TEST(KnownFaults, OfDepthsThatAreNearnessAreNamed) {
   const Scene scene = suite_scene("depth/interpenetrating");
