@@ -50,8 +50,9 @@ std::vector<double> light_errors(const Scene& scene, const glm::dmat4& view) {
   return out;
 }
 
-double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, Lights lights,
-                   std::span<const double> light_errors, std::uint32_t vertex, LitPart part) {
+double color_error(const LitDraw& lit, const Matrices<double>& m, std::span<const double> light_errors,
+                   std::uint32_t vertex, LitPart part) {
+  const auto& [scene, draw, lights] = lit;
   if (!is_lit_per_vertex(draw)) return kFloatRounding;
   const Mesh& mesh = scene.meshes[draw.mesh];
   const BoundedVector p = eye_position(mesh, m, vertex), n = eye_normal(draw, mesh, m, vertex);

@@ -16,10 +16,10 @@ namespace plumbline::math {
 /// Error of each light's position or direction in eye space [length of the error vector], in the order of the lights.
 std::vector<double> light_errors(const Scene& scene, const glm::dmat4& view);
 
-/// Error, per channel, of the colour of vertex number `vertex` of the draw's mesh. `m` and `lights` are unrounded,
-/// `light_errors` the lights' errors. At most 1, as colours are clamped.
-double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, Lights lights,
-                   std::span<const double> light_errors, std::uint32_t vertex, LitPart part = {});
+/// Error, per channel, of the colour of vertex number `vertex` of the draw's mesh. `m` and the draw's lights are
+/// unrounded, `light_errors` the lights' errors. At most 1, as colours are clamped.
+double color_error(const LitDraw& lit, const Matrices<double>& m, std::span<const double> light_errors,
+                   std::uint32_t vertex, LitPart part = {});
 
 /// A vector in eye space, and a bound on the length of its error.
 struct BoundedVector {

@@ -67,6 +67,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   const std::vector<std::uint32_t> point = weld(mesh);
   const bool two = scene.light_model.sides == LightModel::Sides::two, separate = scene.light_model.separate_specular;
   const auto first = static_cast<std::uint32_t>(out.corners.size());
+  const LitDraw lit{scene, draw, out.lights};
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::dvec4 p(mesh.positions[i], 1);
     const glm::dvec3 p_eye(m.model_view * p), n_eye = normal_in_eye_space(draw.normals, m.normal, mesh.normals[i]);
@@ -79,13 +80,13 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
       corner.z = 2 * c.z - c.w;
       corner.size.z = 2 * size.z + size.w;
     }
-    corner.color = vertex_color(scene, draw, out.lights, i, p_eye, n_eye);
-    corner.color_error = color_error(scene, draw, m, out.lights, out.light_errors, i);
+    corner.color = vertex_color(lit, i, p_eye, n_eye);
+    corner.color_error = color_error(lit, m, out.light_errors, i);
     corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
     const auto lit_part = [&](LitPart part, glm::dvec4& of_part, double& error) {
       if (!two && !separate) return;
-      of_part = vertex_color(scene, draw, out.lights, i, p_eye, n_eye, part);
-      error = color_error(scene, draw, m, out.lights, out.light_errors, i, part);
+      of_part = vertex_color(lit, i, p_eye, n_eye, part);
+      error = color_error(lit, m, out.light_errors, i, part);
     };
     lit_part({true, false}, corner.back_color, corner.back_color_error);
     lit_part({false, true}, corner.secondary, corner.secondary_error);

@@ -61,23 +61,30 @@ std::optional<double> z_of_zero(const Projected& scene, const Triangle& t) {
 
 glm::dvec2 frame_of(const Projected& scene) { return {scene.width, scene.height}; }
 
+// Bounds of any piece of a cut triangle: the largest slope of its values [1 / pixel], z_of_zero() that they are counted
+// from, and its altitudes.
+struct AnyPiece {
+  double slope;
+  std::optional<double> z_of_zero;
+  const PieceAltitudes& altitudes;
+};
+
 // Error of a plane in the pieces of a cut triangle, the smaller of two bounds: error_near(), and, where the near and
-// the far plane cut, depth_error_of_pieces() of values of at most 1 and of that `slope` [1 / pixel], counted `from`
-// z_of_zero().
+// the far plane cut, depth_error_of_pieces() of values of at most 1.
 template <class Error>
-double error_of_pieces(const Projected& scene, const Triangle& t, double slope, const Near& near,
-                       const PieceAltitudes& altitudes, std::optional<double> from, Error error) {
+double error_of_pieces(const Projected& scene, const Triangle& t, const Near& near, const AnyPiece& any, Error error) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   // A plane through corners displaced by `reach` is steeper than the triangle by 4 reach / altitude of its slope.
   const auto of_pieces = [&](const std::vector<glm::dvec2>& outline, double altitude, glm::dvec2 extent) {
     if (scene.depth_clamp) return error_near(scene, t, outline, near, error);
     const double of_near = error_near(scene, t, outline, {near.d, near.margin, kInfinity}, error);
-    const double steeper = slope * (1 + 4 * t.reach / altitude);
-    return std::min(of_near, depth_error_of_pieces(arithmetic, altitude, steeper, extent, frame_of(scene), from));
+    const double steeper = any.slope * (1 + 4 * t.reach / altitude);
+    return std::min(of_near,
+                    depth_error_of_pieces(arithmetic, altitude, steeper, extent, frame_of(scene), any.z_of_zero));
   };
-  const double framed = of_pieces(t.outline, altitudes.framed, {scene.width, scene.height});
+  const double framed = of_pieces(t.outline, any.altitudes.framed, {scene.width, scene.height});
   if (t.guarded.extent == glm::dvec2(0)) return framed;
-  return std::max(framed, of_pieces(t.guarded.outline, altitudes.guarded, t.guarded.extent));
+  return std::max(framed, of_pieces(t.guarded.outline, any.altitudes.guarded, t.guarded.extent));
 }
 
 }  // namespace
@@ -91,7 +98,7 @@ double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, c
   const auto error = [&](const WindowCorners& corners) {
     return depth_error(arithmetic, corners, p, frame_of(scene), from);
   };
-  const double out = t.cut ? error_of_pieces(scene, t, slope, {d, 0, kInfinity}, altitudes, from, error) : 0;
+  const double out = t.cut ? error_of_pieces(scene, t, {d, 0, kInfinity}, {slope, from, altitudes}, error) : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }
 
@@ -104,7 +111,7 @@ double shares_error_in_float(const Projected& scene, const Triangle& t, glm::dve
     return shares_error(arithmetic, corners, p, frame_of(scene));
   };
   const Near near{d, glm::length(scene.sample), 0};  // d: the pixel's centre, where a sample is covered
-  const double of_pieces = t.cut ? error_of_pieces(scene, t, slope, near, altitudes, {}, error) : 0,
+  const double of_pieces = t.cut ? error_of_pieces(scene, t, near, {slope, {}, altitudes}, error) : 0,
                out = std::isfinite(of_pieces) ? of_pieces : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }

@@ -109,17 +109,17 @@ DoubleMaterial material_at(const Scene& scene, const Draw& draw, LitPart part, s
   return material_of(scene, draw, part, mesh.colors.empty() ? glm::dvec4(0) : glm::dvec4(mesh.colors.at(vertex)));
 }
 
-glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, Lights lights, const glm::dvec4& color,
-                          glm::dvec3 n, glm::dvec3 p_eye) {
-  return light(scene, material_of(scene, draw, part, color), lights, p_eye, part.back ? -unit_of(n) : unit_of(n));
+glm::dvec4 fragment_light(const LitDraw& lit, LitPart part, const glm::dvec4& color, glm::dvec3 n, glm::dvec3 p_eye) {
+  const DoubleMaterial material = material_of(lit.scene, lit.draw, part, color);
+  return light(lit.scene, material, lit.lights, p_eye, part.back ? -unit_of(n) : unit_of(n));
 }
 
 glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary) {
   return glm::clamp(primary + glm::dvec4(glm::dvec3(secondary), 0), 0.0, 1.0);
 }
 
-glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, Lights lights, std::uint32_t vertex, glm::dvec3 p_eye,
-                        glm::dvec3 n_eye, LitPart part) {
+glm::dvec4 vertex_color(const LitDraw& lit, std::uint32_t vertex, glm::dvec3 p_eye, glm::dvec3 n_eye, LitPart part) {
+  const auto& [scene, draw, lights] = lit;
   if (is_lit_per_vertex(draw)) {
     return light(scene, material_at(scene, draw, part, vertex), lights, p_eye, part.back ? -n_eye : n_eye);
   }

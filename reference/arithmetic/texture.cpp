@@ -279,7 +279,7 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
                           const glm::dvec4& texel) {
   glm::dvec4 out;
   for (int c = 0; c < 4; ++c) {
-    out[c] = textured_channel<double>(format, state.environment, c == 3, fragment[c], texel[c], texel.a,
+    out[c] = textured_channel<double>({format, state.environment, c == 3}, fragment[c], texel[c], texel.a,
                                       static_cast<double>(state.color[c]), Exactly());
   }
   return out;

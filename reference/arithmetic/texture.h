@@ -49,13 +49,21 @@ bool depends_on_lambda(const Sampler& sampler);
 TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi,
                        const LevelRules& rules = {});
 
-/// One channel of the texture environment's result (tables 3.22 and 3.23), by the operations `by` (bounded.h). `alpha`:
-/// the channel is alpha. `fragment`, `texel` and `constant` (of the environment) are the values of that channel.
+/// Function of a texture environment for one channel (tables 3.22 and 3.23). `alpha`: the channel is alpha.
+struct ChannelFunction {
+  TextureFormat format;
+  TextureEnvironment environment;
+  bool alpha;
+};
+
+/// One channel of the texture environment's result, by the operations `by` (bounded.h). `fragment`, `texel` and
+/// `constant` (of the environment) are the values of that channel.
 template <class Number, class Operations>
-Number textured_channel(TextureFormat format, TextureEnvironment environment, bool alpha, Number fragment, Number texel,
-                        Number texel_alpha, Number constant, const Operations& by) {
+Number textured_channel(const ChannelFunction& function, Number fragment, Number texel, Number texel_alpha,
+                        Number constant, const Operations& by) {
   using F = TextureFormat;
   using E = TextureEnvironment;
+  const auto& [format, environment, alpha] = function;
   const bool intensity = format == F::intensity;
   if (alpha ? format == F::luminance || format == F::rgb || environment == E::decal : format == F::alpha)
     return fragment;

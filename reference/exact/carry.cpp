@@ -34,7 +34,7 @@ void light_varyings(const Scene& scene, const Records<double>& in, Records<doubl
       for (std::size_t i = first; i < last; ++i) {
         const Vertex<double>& vertex = in.vertices.at(i);
         column.at(i) = is_lit(v)
-                           ? math::vertex_color(scene, scene.draws[d], lights, static_cast<std::uint32_t>(i - first),
+                           ? math::vertex_color({scene, scene.draws[d], lights}, static_cast<std::uint32_t>(i - first),
                                                 glm::dvec3(vertex.p_eye), vertex.n_eye, {is_back(v), is_secondary(v)})
                            : at_vertex(v, mesh, vertex, i - first);
       }

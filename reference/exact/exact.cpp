@@ -116,15 +116,15 @@ std::size_t selected_fragments(const Scene& scene, const Selection& selection,
   return count;
 }
 
-/// The varyings that the draw carries, at pixel (x, y)'s centre.
+/// The varyings that the draw carries, at the pixel's centre.
 Fours fours_at(const Scene& scene, const Draw& draw, const Records<double>& window, std::size_t triangle,
-               const Barycentric& weights, int x, int y) {
+               const Barycentric& weights, glm::ivec2 pixel) {
   Fours out{};
   WindowTriangle<double> as_color = window.triangles[triangle];
   for (const Varying v : kAllVaryings) {
     if (is_back(v) || !carries(scene, draw, v)) continue;
     for (std::size_t k = 0; k < 3; ++k) as_color.v[k].color = window.varyings[v].triangles[triangle][k];
-    out[static_cast<std::size_t>(v)] = color_at(as_color, weights, x, y);
+    out[static_cast<std::size_t>(v)] = color_at(as_color, weights, pixel.x, pixel.y);
   }
   return out;
 }
@@ -161,14 +161,14 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
       Texel<double> texel;
       const auto colour = [&] {
         color = color_at(triangle, weights, c.x, c.y);
-        if (!plain) fours = fours_at(scene, draw, window, t, weights, c.x, c.y);
+        if (!plain) fours = fours_at(scene, draw, window, t, weights, {c.x, c.y});
         if (draw.texture) {
           const auto texture = static_cast<std::size_t>(Varying::texture);
           const TexturedTriangle with_texture{triangle, window.varyings[Varying::texture].triangles[t],
                                               scene.textures.at(draw.texture->texture), weights};
           texel = texel_at(with_texture, glm::dvec2(fours[texture]), c.x, c.y);
         }
-        shaded = plain ? color : shade(scene, draw, window.lights, triangle.front, color, fours, texel.color);
+        shaded = plain ? color : shade({scene, draw, window.lights}, triangle.front, color, fours, texel.color);
       };
       if (colored) colour();
       const bool visible = buffer.test({c.x, c.y, draw, triangle.front, depth, shaded.a});

@@ -50,7 +50,7 @@ std::vector<Lit<double>> light_vertices(const Scene& scene, const Records<double
   for (std::size_t d = 0; d < scene.draws.size(); ++d)
     for (std::uint32_t i = 0; i < ranges[d].vertex_count; ++i) {
       const Vertex<double>& v = vertices[ranges[d].first_vertex + i];
-      lit.push_back({math::vertex_color(scene, scene.draws[d], lights, i, glm::dvec3(v.p_eye), v.n_eye)});
+      lit.push_back({math::vertex_color({scene, scene.draws[d], lights}, i, glm::dvec3(v.p_eye), v.n_eye)});
     }
   return lit;
 }

@@ -7,15 +7,17 @@
 
 namespace plumbline::exact {
 
-glm::dvec4 shade(const Scene& scene, const Draw& draw, math::Lights lights, bool front, const glm::dvec4& color,
-                 const Fours& fours, const glm::dvec4& texel) {
+glm::dvec4 shade(const math::LitDraw& lit, bool front, const glm::dvec4& color, const Fours& fours,
+                 const glm::dvec4& texel) {
+  const Scene& scene = lit.scene;
+  const Draw& draw = lit.draw;
   const auto four = [&](Varying v) { return fours[static_cast<std::size_t>(v)]; };
   const LightModel& model = scene.light_model;
   glm::dvec4 out = color, secondary = four(Varying::secondary);
   if (is_lit_per_fragment(draw)) {
     const bool back = !front && model.sides == LightModel::Sides::two;
     const auto part = [&](bool specular) {
-      return math::fragment_light(scene, draw, {back, specular}, lights, color, glm::dvec3(four(Varying::normal)),
+      return math::fragment_light(lit, {back, specular}, color, glm::dvec3(four(Varying::normal)),
                                   glm::dvec3(four(Varying::position)));
     };
     out = part(false);
@@ -50,7 +52,7 @@ std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<do
       Fours fours{};
       for (const Varying v : varyings) fours[static_cast<std::size_t>(v)] = records.varyings[v].fragments[i];
       const glm::dvec4 texel = records.texels.empty() ? glm::dvec4(0) : records.texels[i].color;
-      shaded.push_back({shade(scene, draw_of(triangle.primitive), lights, triangle.front, records.attributes[i].color,
+      shaded.push_back({shade({scene, draw_of(triangle.primitive), lights}, triangle.front, records.attributes[i].color,
                               fours, texel)});
     }
   }

@@ -15,9 +15,9 @@ using Fours = std::array<glm::dvec4, kVaryings>;
 
 /// The fragment's colour: light (where the draw is lit per fragment), texture environment, colour sum and fog, in this
 /// order (OpenGL 2.1 spec, figure 3.1). `front`: the fragment's face. `texel`: texture source components, where the
-/// draw has a texture. `lights`: the scene's, in eye space.
-glm::dvec4 shade(const Scene& scene, const Draw& draw, math::Lights lights, bool front, const glm::dvec4& color,
-                 const Fours& fours, const glm::dvec4& texel);
+/// draw has a texture.
+glm::dvec4 shade(const math::LitDraw& lit, bool front, const glm::dvec4& color, const Fours& fours,
+                 const glm::dvec4& texel);
 
 /// Stage 9: shade() of each of records.covered, with lights_of() (geometry.h). Throws std::invalid_argument where the
 /// records do not fit the scene or each other.

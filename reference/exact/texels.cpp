@@ -12,19 +12,21 @@ namespace {
 using Real = long double;
 using ThreeReals = std::array<Real, 3>;
 
+struct Lambda {
+  double lo = 0, hi = 0;
+};
+
 /// Legal interval of lambda at a pixel: from the least in its 2 x 2 quad, by a logarithm that is linear between powers
 /// of two, to the greatest, with the exact bias or Mesa's; the sampler's limits where the plane reaches the eye within
 /// the quad. Renderers take differences of neighbours in place of derivatives: along a row or column the derivative of
 /// a perspective mapping has one direction and a monotone length, so that a difference lies between the derivatives at
 /// both pixels. Each coordinate in float is a quotient of sums with an error of 3 u of their terms (slopes from the
 /// window's origin): 6 u for a difference, relative to its length; a logarithm in float adds some u of its magnitude.
-void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int lower_row, const math::LevelRules& rules,
-                     double& lo, double& hi) {
+Lambda lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int lower_row, const math::LevelRules& rules) {
   constexpr double kRounding = 1.0 / 16777216.0;
   const TextureLevel& base = t.texture.levels[static_cast<std::size_t>(t.texture.sampler.base_level)];
   const glm::dvec2 size(base.width, base.height);
-  lo = std::numeric_limits<double>::infinity();
-  hi = -lo;
+  Lambda out{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (int k = 0; k < 4; ++k) {
     const int qx = (x & ~1) + k % 2, qy = lower_row + k / 2;
     const auto b = t.weights.at(qx, qy);
@@ -37,11 +39,12 @@ void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int lower_
         glm::length(size * (glm::abs(st) + glm::abs(g.d_dx) * (qx + 1.0) + glm::abs(g.d_dy) * (qy + 1.0)));
     const double error = rho > 0 ? kRounding * (6 * terms / rho + 4 * (1 + std::abs(std::log2(rho)))) : 0;
     const double least = std::max(1 - error, 0.0), most = 1 + error;
-    lo = std::min(lo, ahead ? math::smallest_level_of_detail(t.texture, least * g.d_dx, least * g.d_dy, rules)
-                            : static_cast<double>(t.texture.sampler.min_lod));
-    hi = std::max(hi, ahead ? math::largest_level_of_detail(t.texture, most * g.d_dx, most * g.d_dy, rules)
-                            : static_cast<double>(t.texture.sampler.max_lod));
+    out.lo = std::min(out.lo, ahead ? math::smallest_level_of_detail(t.texture, least * g.d_dx, least * g.d_dy, rules)
+                                    : static_cast<double>(t.texture.sampler.min_lod));
+    out.hi = std::max(out.hi, ahead ? math::largest_level_of_detail(t.texture, most * g.d_dx, most * g.d_dy, rules)
+                                    : static_cast<double>(t.texture.sampler.max_lod));
   }
+  return out;
 }
 
 }  // namespace
@@ -103,11 +106,11 @@ void filter_texels(const Scene& scene, const Records<double>& records, const Con
       texel = texel_at(t, at, x, y, rules);
       if (own_lod && !std::isnan(records.texels[i].lod))
         texel.color = math::filtered_texel(texture, at, records.texels[i].lod, rules);
-      double lo = 0, hi = 0;
+      Lambda lambda;
       const int lower_row = math::lower_row_of_square(conventions.rows, scene.frame.height, y);
       if (math::depends_on_lambda(texture.sampler) || judges_interval)
-        lambda_interval(t, at, x, lower_row, rules, lo, hi);
-      out.legal.texels[i] = math::texel_range(texture, at, lo, hi, rules);
+        lambda = lambda_interval(t, at, x, lower_row, rules);
+      out.legal.texels[i] = math::texel_range(texture, at, lambda.lo, lambda.hi, rules);
     }
   }
 }

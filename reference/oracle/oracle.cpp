@@ -229,12 +229,12 @@ std::vector<std::vector<bool>> choices(std::span<const Hit> hits, std::size_t mo
 /// Sets the legal interval of the frame's colour at a pixel. Unbounded where a drawn fragment's colour has no bound, or
 /// where more is open about the drawn fragments than a few choices of one member from each group. `is_counted`: each
 /// group makes one fragment, and all other hits are certain.
-void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, bool is_counted, int x,
-                 int y, Legal& legal) {
+void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, bool is_counted,
+                 glm::ivec2 pixel, Legal& legal) {
   constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   constexpr std::size_t kMostChoices = 16;
-  legal.color_lo(x, y) = glm::vec4(-kUnbounded);
-  legal.color_hi(x, y) = glm::vec4(kUnbounded);
+  legal.color_lo(pixel.x, pixel.y) = glm::vec4(-kUnbounded);
+  legal.color_hi(pixel.x, pixel.y) = glm::vec4(kUnbounded);
   glm::vec4 least(kUnbounded), most(-kUnbounded);
   const auto widen = [&](std::span<const Hit> covering) {
     const std::optional<ColorInterval> color = color_of(scene, projected, covering);
@@ -257,8 +257,8 @@ void fold_colors(const Scene& scene, const Projected& projected, std::span<const
     }
   }
   if (least.x > most.x) return;  // open, or too many choices
-  legal.color_lo(x, y) = least;
-  legal.color_hi(x, y) = most;
+  legal.color_lo(pixel.x, pixel.y) = least;
+  legal.color_hi(pixel.x, pixel.y) = most;
 }
 
 /// Per pixel, whether it is one of `pixels`; empty where they are none.
@@ -320,7 +320,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       if (records) add_fragments(projected, hits, x, y, request.records, out.records);
       const auto is_settled = [](const Hit& hit) { return hit.certain || hit.group >= 0; };
       const bool is_counted = legal.certain(x, y) == legal.possible(x, y) && std::ranges::all_of(to_fold, is_settled);
-      if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, is_counted, x, y, legal);
+      if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, is_counted, {x, y}, legal);
       const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
       by_depth += share.area;
       centres += share.centre ? 1 : 0;

@@ -14,12 +14,16 @@ namespace plumbline::math {
 
 namespace {
 
-/// Sets the depth interval in the window, from that of the plane's z_view: two further roundings, unless the depth
-/// range is [0,1], whose rounding is counted already. `in_float`: error_in_float().
-void set_window_depth(const Triangle& t, bool clamps, const PixelDepth& plane, double lo, double hi, double weight,
-                      double in_float, PixelHit& out) {
-  const double moved = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
-  const double rounding = moved + t.offset.half + in_float;
+/// A plane's z_view at a pixel, and its interval.
+struct ViewDepth {
+  PixelDepth plane;
+  double lo, hi;
+};
+
+/// Sets the depth interval in the window. `rounding`: what its ends move beyond those of z_view [window z].
+void set_window_depth(const Triangle& t, bool clamps, const ViewDepth& view, double rounding, PixelHit& out) {
+  const auto& [plane, lo, hi] = view;
+  const double scale = range_scale(t);
   const auto [low, high] = clamps ? std::minmax({double{t.range.near}, double{t.range.far}}) : std::pair(0.0, 1.0);
   out.win.z = to_window(t, plane.z);
   if (clamps) out.win.z = std::clamp(out.win.z, low, high);
@@ -127,8 +131,10 @@ void set_depth(const PixelSite& site, bool is_inside, PixelHit& out) {
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  set_window_depth(t, clamps, {view.z, half, view.slope}, lo, hi, weight, error_in_float(scene, t, site.d, site.pieces),
-                   out);
+  // Two further roundings, unless the depth range is [0,1], whose rounding is counted already.
+  const double in_range = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding,
+               in_float = error_in_float(scene, t, site.d, site.pieces);
+  set_window_depth(t, clamps, {{view.z, half, view.slope}, lo, hi}, in_range + t.offset.half + in_float, out);
 }
 
 /// Whether the primitive covers the pixel: by the declared grid and tie rule, or because the triangle's outline on the

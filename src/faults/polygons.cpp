@@ -171,15 +171,21 @@ constexpr auto kWholeRows = [](const pipeline::WindowVertex& v) {
 };
 constexpr auto kHalfAPixelOff = [](const pipeline::WindowVertex& v) { return v.snapped + kSubpixel / 2; };
 
+enum class To { down, up, nearest };
+template <To way>
+float whole(float p) {
+  return way == To::down ? std::floor(p) : way == To::up ? std::ceil(p) : std::nearbyint(p);
+}
+
 // Corners in whole pixels (`centre`: plus a half), for coverage and for interpolation.
-template <bool centre>
+template <bool centre, To x = To::down, To y = x>
 void in_whole_pixels(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   Triangles made;
   pipeline::to_window(input, polygon, made);
   constexpr float kPart = centre ? 0.5f : 0;
   for (ShadedTriangle& t : made) {
     for (pipeline::WindowVertex& v : t.v) {
-      const glm::vec2 p = glm::floor(glm::vec2(v.p_win) - kPart) + kPart;
+      const glm::vec2 from = glm::vec2(v.p_win) - kPart, p = glm::vec2(whole<x>(from.x), whole<y>(from.y)) + kPart;
       v.p_win.x = p.x, v.p_win.y = p.y;
       v.snapped = glm::ivec2((p - 0.5f) * static_cast<float>(kSubpixel));
     }
@@ -289,6 +295,14 @@ constexpr std::array kPolygons = {
                 put<&Stages::window, in_whole_pixels<false>>),
     stage_fault("window.whole_centres", "corners are moved down to pixels' centres",
                 put<&Stages::window, in_whole_pixels<true>>),
+    stage_fault("window.whole_pixels_from_top", "corners are truncated to whole pixels, where y points down",
+                put<&Stages::window, in_whole_pixels<false, To::down, To::up>>),
+    stage_fault("window.whole_centres_from_top", "corners are moved left and up to pixels' centres",
+                put<&Stages::window, in_whole_pixels<true, To::down, To::up>>),
+    stage_fault("window.nearest_pixels", "corners are rounded to whole pixels",
+                put<&Stages::window, in_whole_pixels<false, To::nearest>>),
+    stage_fault("window.nearest_centres", "corners are moved to the nearest pixels' centres",
+                put<&Stages::window, in_whole_pixels<true, To::nearest>>),
     stage_fault("window.half_pixel_off", "corners lie half a pixel too far right and up",
                 put<&Stages::window, snapped_otherwise<kHalfAPixelOff>>),
     stage_fault("window.facing_turned", "triangles whose corners are clockwise are front faces",

@@ -48,6 +48,22 @@ TEST(SettledCoverage, ADeclaredTieRuleSettlesSamplesOnEdges) {
   }
 }
 
+// An edge of slope 3/2 through samples, and the straight ones: float rounds the slanted edge's function alone.
+TEST(SettledCoverage, FloatDecidesTiesOfSlantedEdgesByTheirSign) {
+  const Scene scene = window_scene({{glm::vec3(4.5f, 4.5f, 0.5f), {20.5f, 28.5f, 0.5f}, {4.5f, 28.5f, 0.5f}}});
+  using enum C::TieRule;
+  for (const C::TieRule rule : {inclusive, exclusive, left_bottom}) {
+    C in_float = declared(rule);
+    in_float.depth_arithmetic = C::DepthArithmetic::in_float;
+    const Legal by = legal(scene, in_float), by_double = legal(scene, declared(rule));
+    EXPECT_EQ(open_pixels(by_double), 0u) << name_of(rule);
+    EXPECT_EQ(by.certain(4, 16), by_double.certain(4, 16)) << name_of(rule) << ": upright";
+    EXPECT_EQ(by.certain(8, 28), by_double.certain(8, 28)) << name_of(rule) << ": level";
+    EXPECT_EQ(by.certain(6, 7) != by.possible(6, 7), rule != left_bottom) << name_of(rule);
+    EXPECT_EQ(by.certain(2, 1), by.possible(2, 1)) << name_of(rule) << ": beyond the edge's end";
+  }
+}
+
 // Samples on edges stay open where the grid is unknown, or float arithmetic decides to which grid point a corner
 // snaps.
 TEST(SettledCoverage, ATieRuleSettlesNothingWithoutPlaces) {

@@ -82,7 +82,7 @@ Environed environ_error(TextureFormat format, const DrawTexture& state, const Ve
   Environed out{};
   for (int c = 0; c < 4; ++c) {
     const Bounded v = math::textured_channel<Bounded>(
-        format, state.environment, c == 3, {f[c], f_error[c]}, {s[c], s_error[c]}, {s.a, s_error.a},
+        {format, state.environment, c == 3}, {f[c], f_error[c]}, {s[c], s_error[c]}, {s.a, s_error.a},
         {static_cast<double>(state.color[c]), 0}, math::Rounding{roundings});
     out.color[c] = v.value;
     out.error[c] = v.error;

@@ -221,6 +221,19 @@ constexpr std::string_view kOtherSide = ", or to another side";
 
 constexpr std::array kTruncations = {std::string_view("merge.truncated"), std::string_view("depth.truncated")};
 
+// Fault that snaps corners to whole pixels as the conventions declare, after the shift of the declared sample to the
+// pixel's centre; empty: none does.
+std::string_view declared_snapping(const Conventions& c) {
+  using enum Conventions::Rounding;
+  const glm::dvec2 part = glm::fract(c.sample);
+  const bool at_centre = part == glm::dvec2(0.5), at_corner = part == glm::dvec2(0);
+  if (!settles_grid(c) || c.subpixel_bits != 0 || c.attribute_corners != Conventions::Corners::snapped) return {};
+  if (!(at_centre || at_corner) || subpixel_rounding(c, 0) == up) return {};
+  if (c.subpixel_rounding == nearest) return at_centre ? "window.nearest_pixels" : "window.nearest_centres";
+  if (subpixel_rounding(c, 1) == down) return at_centre ? "window.whole_pixels" : "window.whole_centres";
+  return at_centre ? "window.whole_pixels_from_top" : "window.whole_centres_from_top";
+}
+
 // Faults that draw what the conventions declare of the scene.
 std::vector<std::string_view> declared_faults(const Scene& scene, const Conventions& c) {
   using enum Conventions::TieRule;
@@ -233,11 +246,7 @@ std::vector<std::string_view> declared_faults(const Scene& scene, const Conventi
   if (c.tie_rule == inclusive) out.push_back("coverage.inclusive_edges");
   if (c.tie_rule == exclusive) out.push_back("notes.000.strict_edges");
   if (c.tie_rule == left_top) out.push_back("coverage.top_for_bottom");
-  const bool in_whole_pixels =
-      settles_grid(c) && c.subpixel_bits == 0 && c.subpixel_rounding == Conventions::Rounding::down &&
-      c.window_y == Conventions::WindowY::up && c.attribute_corners == Conventions::Corners::snapped;
-  if (in_whole_pixels && c.sample == glm::dvec2(0.5)) out.push_back("window.whole_pixels");
-  if (in_whole_pixels && c.sample == glm::dvec2(0)) out.push_back("window.whole_centres");  // borders, moved by 1/2
+  if (const std::string_view snapping = declared_snapping(c); !snapping.empty()) out.push_back(snapping);
   return out;
 }
 

@@ -141,6 +141,22 @@ TEST(KnownFaults, AreRoundingsThatConventionsDeclareAndTheRendererDoesNotHave) {
   }
 }
 
+// Samples at pixels' corners: borders of pixels, moved by half a pixel, are centres.
+TEST(KnownFaults, OfWholePixelsAreDeclaredWhereverPixelsAreSampled) {
+  C declared;
+  declared.subpixel_bits = 0, declared.attribute_corners = C::Corners::snapped;
+  for (const glm::dvec2 corner : {glm::dvec2(0), glm::dvec2(0, 1)}) {
+    declared.sample = corner;
+    EXPECT_FALSE(is_known("window.nearest_centres", declared));
+    EXPECT_TRUE(is_known("window.nearest_pixels", declared));
+  }
+  declared.subpixel_rounding = C::Rounding::down, declared.window_y = C::WindowY::down;
+  EXPECT_FALSE(is_known("window.whole_centres_from_top", declared));
+  EXPECT_TRUE(is_known("window.whole_centres", declared));
+  declared.sample = {0.25, 0};
+  EXPECT_TRUE(is_known("window.whole_centres_from_top", declared)) << "no fault has such a grid";
+}
+
 // Frames of an affine renderer, of another tie rule or of whole pixels: what the conventions declare is drawn, and is
 // no fault.
 TEST(KnownFaults, AreDrawnByDeclaredInterpolationTiesAndWholePixels) {
@@ -152,6 +168,8 @@ TEST(KnownFaults, AreDrawnByDeclaredInterpolationTiesAndWholePixels) {
   left_top.tie_rule = C::TieRule::left_top;
   whole_pixels.subpixel_bits = 0, whole_pixels.subpixel_rounding = C::Rounding::down;
   whole_pixels.attribute_corners = C::Corners::snapped;
+  C from_top = whole_pixels, nearest = whole_pixels;
+  from_top.window_y = C::WindowY::down, nearest.subpixel_rounding = C::Rounding::nearest;
   struct Case {
     C declared;
     const char *scene, *drawn, *fault;
@@ -162,6 +180,8 @@ TEST(KnownFaults, AreDrawnByDeclaredInterpolationTiesAndWholePixels) {
         {exclusive, "coverage/shared_edges", "notes.000.strict_edges", "file.mirrored"},
         {inclusive, "coverage/shared_edges", "coverage.inclusive_edges", "file.mirrored"},
         {whole_pixels, "interpolation/tiny", "window.whole_pixels", "file.mirrored"},
+        {from_top, "interpolation/tiny", "window.whole_pixels_from_top", "file.mirrored"},
+        {nearest, "interpolation/tiny", "window.nearest_pixels", "file.mirrored"},
         {left_top, "notes/gl_on_centres", "coverage.top_for_bottom", "file.mirrored"}}) {
     const Scene scene = suite_scene(name);
     const std::vector<KnownFault> known = known_faults(scene, {});
