@@ -1,8 +1,11 @@
 #include "check/verdict/expectations.h"
 
 #include <algorithm>
+#include <ctime>
+#include <iomanip>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -20,22 +23,9 @@ std::string row_of(const Expectation& e) {
                      name_of(e.stage));
 }
 
-Stage stage_at(const JsonNode& node) {
-  const auto found = std::ranges::find(kStageNames, std::string_view(node.text()));
-  if (found == kStageNames.end())
-    node.refuse(fmt::format("a stage ({} to {})", kStageNames.front(), kStageNames.back()));
-  return static_cast<Stage>(found - kStageNames.begin());
-}
-
 bool is_of(const Expectation& e, const JudgeId& judge) {
   const bool of_exact = judge.kind >= Kind::from_scene && judge.kind <= Kind::repaired;
   return judge.reference == e.reference && (e.kind ? judge.kind == *e.kind : !of_exact);
-}
-
-Kind kind_at(const JsonNode& node) {
-  const auto found = std::ranges::find(kKindNames, std::string_view(node.text()));
-  if (found == kKindNames.end()) node.refuse(fmt::format("one of {}", fmt::join(kKindNames, ", ")));
-  return static_cast<Kind>(found - kKindNames.begin());
 }
 
 std::chrono::sys_days day_at(const JsonNode& node) {
@@ -49,16 +39,12 @@ std::chrono::sys_days day_at(const JsonNode& node) {
 }  // namespace
 
 std::chrono::sys_days day_of(const std::string& text) {
-  const auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
-  bool in_form = text.size() == 10;
-  for (std::size_t i = 0; in_form && i < text.size(); ++i) in_form = i == 4 || i == 7 ? text[i] == '-' : is_digit(i);
-  if (in_form) {
-    const auto part = [&](std::size_t first, std::size_t count) { return std::stoi(text.substr(first, count)); };
-    const std::chrono::year_month_day date{std::chrono::year(part(0, 4)),
-                                           std::chrono::month(static_cast<unsigned>(part(5, 2))),
-                                           std::chrono::day(static_cast<unsigned>(part(8, 2)))};
-    if (date.ok()) return date;
-  }
+  std::tm parts{};
+  std::istringstream(text) >> std::get_time(&parts, "%Y-%m-%d");
+  const std::chrono::year_month_day date{std::chrono::year(parts.tm_year + 1900),
+                                         std::chrono::month(static_cast<unsigned>(parts.tm_mon + 1)),
+                                         std::chrono::day(static_cast<unsigned>(parts.tm_mday))};
+  if (date.ok() && to_string(date) == text) return date;
   throw std::invalid_argument(fmt::format("expected a day as YYYY-MM-DD, found \"{}\"", text));
 }
 
@@ -81,8 +67,8 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& path, st
     if (std::ranges::count(renderers, e.reference) == 0) {
       node["reference"].refuse(fmt::format("a reference, one of {}", fmt::join(renderers, ", ")));
     }
-    if (const auto kind = node.find("kind")) e.kind = kind_at(*kind);
-    e.stage = stage_at(node["stage"]);
+    if (const auto kind = node.find("kind")) e.kind = kind->choice<Kind>(kKindNames);
+    e.stage = node["stage"].choice<Stage>(kStageNames);
     if (const auto outcome = node.find("outcome")) {
       e.outcome = outcome->choice<Outcome>(
           {{"different", Outcome::different}, {"missing", Outcome::missing}, {"failed", Outcome::failed}});

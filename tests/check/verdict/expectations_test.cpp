@@ -119,13 +119,15 @@ TEST_F(Expectations, FilesAreRefusedWithTheirPlace) {
   };
   refused(with("2030-06-30", "2030-06-31"), "/expectations/0/expires", "a day as YYYY-MM-DD");
   refused(with("2030-06-30", "2030-6-30"), "/expectations/0/expires", "a day as YYYY-MM-DD");
-  refused(with("\"depth\"", "\"dept\""), "/expectations/0/stage", "a stage (matrices to resolve)");
+  refused(with("\"depth\"", "\"dept\""), "/expectations/0/stage", "one of matrices, vertex, light");
   refused(with("\"osmesa\"", "\"mesa\""), "/expectations/0/reference", "a reference, one of");
   refused(with("a driver's bug", ""), "/expectations/0/reason", "");
   refused(with("\"issue\": \"mesa 123\",", ""), "/expectations/0/issue", "a value");
   refused(with("\"issue\"", "\"isue\""), "/expectations/0/isue", "");
   refused(with("\"stage\"", "\"outcome\": \"equal\", \"stage\""), "/expectations/0/outcome", "");
-  EXPECT_THROW(day_of("2026-02-30"), std::invalid_argument);
+  for (const char* text : {"2026-02-30", "2026-01-01 ", "-026-01-01", "0000-00-00", ""}) {
+    EXPECT_THROW(day_of(text), std::invalid_argument) << text;
+  }
   EXPECT_EQ(to_string(day_of("2028-02-29")), "2028-02-29");
 }
 
