@@ -15,17 +15,9 @@ std::string_view name_of(Outcome outcome) {
 }
 
 std::string title_of(const JudgeId& judge) {
-  switch (judge.kind) {
-    case Kind::from_scene: return judge.reference + ", from scene";
-    case Kind::per_stage: return judge.reference + ", per stage";
-    case Kind::at_worst: return judge.reference + ", at the worst pixels";
-    case Kind::repaired: return judge.reference + ", repaired";
-    case Kind::side_by_side:
-    case Kind::legal:
-    case Kind::golden:
-    case Kind::picture: break;
-  }
-  return judge.reference;
+  constexpr std::array<std::string_view, kKindNames.size()> kHow = {
+      "", "", ", from scene", ", per stage", ", at the worst pixels", ", repaired", "", ""};
+  return judge.reference + std::string(kHow[static_cast<std::size_t>(judge.kind)]);
 }
 
 bool is_failure(Outcome outcome) {
