@@ -1,6 +1,7 @@
 #include "check/judge/judge_passes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -40,18 +41,8 @@ class SamplesAt {
 };
 
 int severity(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::equal: return 0;
-    case Outcome::within: return 1;
-    case Outcome::ambiguous_only: return 2;
-    case Outcome::expected:  // settled later
-    case Outcome::dispute: return 3;
-    case Outcome::unsupported: return 4;
-    case Outcome::different: return 5;
-    case Outcome::missing: return 6;
-    case Outcome::failed: return 7;
-  }
-  return 7;
+  constexpr std::array<int, kOutcomes> kSeverities = {0, 1, 2, 5, 3, 4, 6, 7, 3};  // expected: settled later
+  return kSeverities[static_cast<std::size_t>(outcome)];
 }
 
 // The worst of two passes' rows, with the items of both.
