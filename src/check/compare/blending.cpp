@@ -11,25 +11,6 @@ namespace plumbline::check {
 
 namespace {
 
-bool reads_frame(const BlendTerm& term) {
-  const auto reads = [](BlendFactor f) {
-    return f == BlendFactor::destination_color || f == BlendFactor::one_minus_destination_color ||
-           f == BlendFactor::destination_alpha || f == BlendFactor::one_minus_destination_alpha ||
-           f == BlendFactor::source_alpha_saturate;
-  };
-  return reads(term.source) || reads(term.destination);
-}
-
-}  // namespace
-
-bool factors_read_frame(const Scene& scene) {
-  return std::ranges::any_of(scene.draws, [](const Draw& d) {
-    return d.merge.blend && (reads_frame(d.merge.blend->rgb) || reads_frame(d.merge.blend->alpha));
-  });
-}
-
-namespace {
-
 double largest(const Vec4<double>& color) {
   return std::max({std::abs(color.r), std::abs(color.g), std::abs(color.b), std::abs(color.a)});
 }
@@ -69,6 +50,11 @@ Factor factor(BlendFactor f, const Operand& source, const Operand& constant, dou
   return {};
 }
 
+bool reads_frame(const BlendTerm& term) {
+  const auto reads = [](BlendFactor f) { return factor(f, Operand(), Operand(), 1).per_held > 0; };
+  return reads(term.source) || reads(term.destination);
+}
+
 /// Largest absolute value that a pixel may hold, and the rounding error of what it holds [u].
 struct Held {
   double most, error = 0;
@@ -91,6 +77,12 @@ struct Held {
 Held larger(const Held& a, const Held& b) { return {std::max(a.most, b.most), std::max(a.error, b.error)}; }
 
 }  // namespace
+
+bool factors_read_frame(const Scene& scene) {
+  return std::ranges::any_of(scene.draws, [](const Draw& d) {
+    return d.merge.blend && (reads_frame(d.merge.blend->rgb) || reads_frame(d.merge.blend->alpha));
+  });
+}
 
 Plane<double> blending_roundings(const Scene& scene, const Records<double>& records) {
   Plane<double> out(scene.frame.width, scene.frame.height, 0);
