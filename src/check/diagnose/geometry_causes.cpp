@@ -9,6 +9,7 @@
 
 #include "check/bounds/matched_by_primitive.h"
 #include "check/diagnose/known_causes.h"
+#include "check/polygons/legal_polygon.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -35,9 +36,10 @@ LightModel::Specular other(LightModel::Specular specular) {
   return specular == reflection ? half_vector : reflection;
 }
 
+void leave_out_camera(Scene& scene) { scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}; }
 void eye_space_is_the_world(Scene& scene) {
   scene.dialect = Dialect::gl;
-  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  leave_out_camera(scene);
 }
 
 // Detector of fixed point: all numbers expected off the multiples of 2^-16 are multiples, within 2^-10 of the expected
@@ -85,15 +87,9 @@ constexpr std::string_view kFixedPoint =
     "its numbers are multiples of 2^-16: fixed point; numbers below 0.76 are coarser than 1 part in 10^5 (OpenGL 2.1, "
     "2.1.1)";
 
-// Clip planes as the pipeline numbers them: distance of p to right, left, top, bottom, near, far.
-double distance(const Vec4<double>& p, std::size_t plane) {
-  const double v = p[static_cast<int>(plane / 2)];
-  const bool upper = plane < 4 ? plane % 2 == 0 : plane == 5;
-  return upper ? p.w - v : p.w + v;
-}
-
+// Whether a vertex is beyond a plane (polygons/legal_polygon.h, distances), by more than rounding.
 bool outside(const ClipVertex<double>& v, std::size_t plane) {
-  return distance(v.p_clip, plane) < -1e-5 * (std::abs(v.p_clip.w) + std::abs(v.p_clip[static_cast<int>(plane / 2)]));
+  return distances(v.p_clip)[plane] < -1e-5 * (std::abs(v.p_clip.w) + std::abs(v.p_clip[static_cast<int>(plane / 2)]));
 }
 
 // Whether the candidate's polygons reach beyond `plane`, the expected ones do not, and no other plane is crossed.
@@ -213,8 +209,6 @@ bool lit_without_clamp(const Evidence& e) {
   }
   return differ > 0 && (differ - explained) * 50 <= differ;
 }
-
-void leave_out_camera(Scene& s) { s.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}; }
 
 using S = Stage;
 
