@@ -25,23 +25,14 @@ namespace {
 // `open(fragment)`: whether it is legal that the fragment is extra or missing.
 Measurement covered_except(const Records<double>& candidate, const Records<double>& reference, auto open) {
   Meter meter("fragments");
-  auto a = candidate.covered.begin();
-  auto b = reference.covered.begin();
-  while (a != candidate.covered.end() || b != reference.covered.end()) {
-    const bool extra =
-        b == reference.covered.end() || (a != candidate.covered.end() && draw_order(*a) < draw_order(*b));
-    const bool lacks =
-        a == candidate.covered.end() || (b != reference.covered.end() && draw_order(*b) < draw_order(*a));
-    const Covered& c = lacks ? *b : *a;
-    if ((extra || lacks) && open(c)) {
+  each_covered(candidate.covered, reference.covered, [&](const Covered& c, bool has, bool should) {
+    if (has != should && open(c)) {
       meter.ambiguous();
-    } else if (extra || lacks) {
-      meter.value(1, 0, {c.x, c.y, static_cast<std::int64_t>(c.triangle), extra ? "extra" : "lacking"}, extra, lacks);
+    } else if (has != should) {
+      meter.value(1, 0, {c.x, c.y, static_cast<std::int64_t>(c.triangle), has ? "extra" : "lacking"}, has, should);
     }
-    if (!lacks) ++a;
-    if (!extra) ++b;
     meter.item();
-  }
+  });
   return meter.done();
 }
 

@@ -63,6 +63,15 @@ Measurement compare_window(const Scene& scene, const Records<double>& candidate,
 Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference, double factor,
                                  std::span<const std::uint32_t> turned = {});
 
+/// Calls visit(fragment, is in `a`, is in `b`) for each fragment of either list, both sorted by draw_order().
+void each_covered(std::span<const Covered> a, std::span<const Covered> b, auto visit) {
+  for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+    const bool in_a = i < a.size() && (j == b.size() || draw_order(a[i]) <= draw_order(b[j]));
+    const bool in_b = j < b.size() && (i == a.size() || draw_order(b[j]) <= draw_order(a[i]));
+    visit(in_a ? a[i++] : b[j], in_a, in_b);
+    j += in_b ? 1 : 0;
+  }
+}
 /// Compares fragments of stage 5, both sides sorted by draw_order(): each extra or missing fragment is a difference of
 /// 1.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);

@@ -4,27 +4,22 @@
 
 #include <fmt/format.h>
 
+#include "check/compare/compare_records.h"
+
 namespace plumbline::check {
 
 std::vector<CoverageDifference> coverage_differences(const Evidence& e) {
-  const std::vector<Covered>&a = e.candidate.records.covered, &b = e.expected.records.covered;
   std::vector<CoverageDifference> out;
   CoverageDifference now;
   const auto end = [&] {
     if (!now.missing.empty() || !now.extra.empty()) out.push_back(std::move(now));
     now = {};
   };
-  std::size_t i = 0, j = 0;
-  while (i < a.size() || j < b.size()) {
-    const bool has = i < a.size() && (j == b.size() || draw_order(a[i]) <= draw_order(b[j]));
-    const bool should = j < b.size() && (i == a.size() || draw_order(b[j]) <= draw_order(a[i]));
-    const Covered& c = has ? a[i] : b[j];
+  each_covered(e.candidate.records.covered, e.expected.records.covered, [&](const Covered& c, bool has, bool should) {
     if (c.triangle != now.triangle) end();
     now.triangle = c.triangle;
     (has && should ? now.both : has ? now.extra : now.missing).emplace_back(c.x, c.y);
-    i += has ? 1 : 0;
-    j += should ? 1 : 0;
-  }
+  });
   end();
   return out;
 }
