@@ -116,9 +116,9 @@ inline double distance_outside(double value, double low, double high) {
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
 }
 
-/// Adds a value without a reference (a winner's colour where no fragment wins): it differs only if not finite.
-inline void add_finite_value(Meter& meter, double value, const Place& place) {
-  meter.value(std::isfinite(value) ? 0 : kInfinite, 0, place, value, 0);
+/// Adds a colour without a reference (a winner's where no fragment wins): it differs only if not finite.
+inline void add_finite_color(Meter& meter, const Vec4<double>& color, const Place& place) {
+  for (int c = 0; c < 4; ++c) meter.value(std::isfinite(color[c]) ? 0 : kInfinite, 0, place, color[c], 0);
 }
 
 // Adds a value without a bound (a triangle without area): any finite number is legal, and the item is ambiguous.

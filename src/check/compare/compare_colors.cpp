@@ -62,8 +62,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
   return where_winners_agree(a, b, &Planes::shaded, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const Place place{x, y, id, "color", true};
     if (id == kBackground) {  // no fragment has a colour; merge judges the clear colour
-      for (int c = 0; c < 4; ++c)
-        add_finite_value(meter, a.shaded(x, y)[c], place), add_finite_value(meter, b.shaded(x, y)[c], place);
+      for (const Planes* side : {&a, &b}) add_finite_color(meter, Vec4<double>(side->shaded(x, y)), place);
       return;
     }
     const FragmentBound bound = bounds.of_winner(id, x, y);

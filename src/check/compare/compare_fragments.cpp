@@ -91,26 +91,20 @@ double of_steps(const WindowTriangle<double>& t, const Conventions& conventions,
   return glm::length(edge_displacement(conventions.depth_arithmetic, box, frame));
 }
 
-// Displacement of a triangle's edges in the candidate [pixels]: by steps, and by the grid, which moves a corner by up
-// to half a step in x and in y (rounded down or up: a whole step). Without a grid, an edge function in float is off by
-// 8 u of the largest coordinates.
-double moved(const WindowTriangle<double>& t, const Conventions& conventions, glm::dvec2 frame) {
-  const int bits = conventions.subpixel_bits;
-  if (bits == Conventions::kFloat) {
-    double most = 0;
-    for (const WindowVertex<double>& v : t.v) most = std::max(most, std::abs(v.p_win.x) + std::abs(v.p_win.y));
-    return 8 * u * most + of_steps(t, conventions, frame);
-  }
-  const bool to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
-  return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions, frame);
-}
-
-// Error of a float edge function [pixels], at a corner that is snapped: 8 u of the largest coordinates.
-double of_float_edges(const WindowTriangle<double>& t, const Conventions& conventions) {
-  if (conventions.depth_arithmetic == Conventions::DepthArithmetic::in_double) return 0;
+// Error of an edge function in float [pixels]: 8 u of the largest coordinates.
+double of_float_edges(const WindowTriangle<double>& t) {
   double most = 0;
   for (const WindowVertex<double>& v : t.v) most = std::max(most, std::abs(v.p_win.x) + std::abs(v.p_win.y));
   return 8 * u * most;
+}
+
+// Displacement of a triangle's edges in the candidate [pixels]: by steps, and by the grid, which moves a corner by up
+// to half a step in x and in y (rounded down or up: a whole step). Without a grid, edge functions are of float.
+double moved(const WindowTriangle<double>& t, const Conventions& conventions, glm::dvec2 frame) {
+  const int bits = conventions.subpixel_bits;
+  if (bits == Conventions::kFloat) return of_float_edges(t) + of_steps(t, conventions, frame);
+  const bool to_nearest = conventions.subpixel_rounding == Conventions::Rounding::nearest;
+  return std::numbers::sqrt2 / 2 * std::exp2(to_nearest ? -bits : 1 - bits) + of_steps(t, conventions, frame);
 }
 
 // Legality of a sample's membership in the two triangles that share its edge, by a tie rule.
@@ -149,6 +143,7 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
   const glm::dvec2 sample = by.sample, frame = by.frame, places = conventions.sample * double{kSubpixel};
   const bool by_one_grid =
       conventions.subpixel_bits >= 0 && conventions.subpixel_bits <= 8 && places == glm::round(places);
+  const bool is_of_float = conventions.depth_arithmetic != Conventions::DepthArithmetic::in_double;
   std::optional<SharedEdges> shared;  // once there is a fragment to ask about
   const auto is_covered = [&](Covered c, std::uint32_t triangle) {
     c.triangle = triangle;
@@ -160,7 +155,8 @@ Measurement covered_except_edges_of(const Records<double>& candidate, const Reco
   const auto near = [&](std::uint32_t triangle, glm::dvec2 p, bool by_both) {
     const WindowTriangle<double>& t = candidate.triangles[triangle];
     if (by_one_grid && !has_corner_between_places(t, conventions, by.snapped_by))
-      return edges_near(window_corners(t, true), p, of_steps(t, conventions, frame) + of_float_edges(t, conventions));
+      return edges_near(window_corners(t, true), p,
+                        of_steps(t, conventions, frame) + (is_of_float ? of_float_edges(t) : 0));
     return edges_near(window_corners(t, false), p, moved(t, conventions, frame) + (by_both ? kOfExact : 0));
   };
   const auto on_an_edge = [&](const Covered& c) {
@@ -297,11 +293,8 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
         const double declared = from_origin > 0 ? declared_error(conventions, triangle, c, frame) : 0;
         // Extrapolated to the horizon, or in an arithmetic that loses all shares: any colour.
         if (!std::isfinite(bound.x + bound.y + bound.z + bound.w + allowance.x + declared)) {
-          meter.ambiguous();
-          for (int k = 0; k < 4; ++k) {
-            const double v = candidate.attributes[i].color[k];
-            meter.value(std::isfinite(v) ? 0 : kInfinite, 0, {c.x, c.y, c.triangle, "color"}, v, 0);
-          }
+          for (int k = 0; k < 4; ++k)
+            add_open_value(meter, candidate.attributes[i].color[k], {c.x, c.y, c.triangle, "color"}, 0);
           return;
         }
         add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound + kGradualUnderflow, factor,

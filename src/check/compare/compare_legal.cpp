@@ -105,8 +105,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
     const glm::vec4 c = color(x, y);
     const auto answers = answers_of_winner(legal, candidate, x, y);
     if (answers.empty()) {  // visibility judges the winner; here any finite colour holds
-      for (int i = 0; i < 4; ++i) add_finite_value(meter, c[i], {x, y, winner_at(candidate, x, y), "color", true});
-      return;
+      return add_finite_color(meter, Vec4<double>(c), {x, y, winner_at(candidate, x, y), "color", true});
     }
     const bool one_holds = std::ranges::any_of(answers, [&](const LegalAnswer& a) { return holds(a, x, y); });
     const auto distance = [&](const LegalAnswer& a) {
@@ -168,7 +167,7 @@ Measurement compare_legal_shaded(const Scene& scene, const Planes& candidate, co
   // No fragment has a colour where only the background is legal; merge judges the clear colour.
   const auto has_no_winner = [&](Meter& meter, int x, int y) {
     if (!is_cleared(answers_of_winner(legal, candidate, x, y))) return false;
-    for (int i = 0; i < 4; ++i) add_finite_value(meter, candidate.shaded(x, y)[i], {x, y, kBackground, "color"});
+    add_finite_color(meter, Vec4<double>(candidate.shaded(x, y)), {x, y, kBackground, "color"});
     return true;
   };
   const auto holds = [](const LegalAnswer&, int, int) { return true; };

@@ -227,9 +227,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
     const Vec4<double> mine(a.texel(x, y)), theirs(b.texel(x, y));
     const Place place{x, y, id, "texel", true};
     if (id == kBackground) {
-      for (const Vec4<double>& texel : {mine, theirs}) {
-        for (int c = 0; c < 4; ++c) add_finite_value(meter, texel[c], place);
-      }
+      for (const Vec4<double>& texel : {mine, theirs}) add_finite_color(meter, texel, place);
       return;
     }
     const auto [bound, share, reason] = texels.at(x, y);
