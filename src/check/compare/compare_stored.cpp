@@ -82,9 +82,7 @@ void add_value(Meter& meter, const T& a, const T& b, double tolerance, const Pla
   if constexpr (std::is_floating_point_v<T>) {
     meter.value(difference(a, b), tolerance, place, a, b);
   } else if constexpr (std::is_integral_v<T>) {
-    const auto wide_a = static_cast<std::uint64_t>(a), wide_b = static_cast<std::uint64_t>(b);
-    meter.value(static_cast<double>(a > b ? wide_a - wide_b : wide_b - wide_a), 0, place, static_cast<double>(a),
-                static_cast<double>(b));
+    add_integers(meter, a, b, place);
   } else {
     for (int i = 0; i < T::length(); ++i) add_value(meter, a[i], b[i], tolerance, place);
   }

@@ -31,8 +31,6 @@ std::string to_string(const Place& place) {
   return out;
 }
 
-double integers_apart(std::uint64_t greater, std::uint64_t less) { return static_cast<double>(greater - less); }
-
 double difference(double a, double b) {
   if (a == b) return 0;
   const double d = std::abs(a - b);

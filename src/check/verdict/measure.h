@@ -60,9 +60,6 @@ struct Measurement {
 /// |a - b|; 0 for equal numbers, equal infinities included; infinite where anything else is not finite.
 double difference(double a, double b);
 
-/// greater - less as a double, subtracted modulo 2^64 first: no signed overflow, exact below 2^53.
-double integers_apart(std::uint64_t greater, std::uint64_t less);
-
 /// Gathers a measurement item by item.
 class Meter {
  public:
@@ -130,14 +127,18 @@ Measurement compare_planes(const Plane<A>& a, const Plane<B>& b, const std::stri
   return meter.done();
 }
 
+/// Adds two integers of an item, subtracted modulo 2^64: no signed overflow, exact below 2^53. Zero tolerance.
+template <class T>
+void add_integers(Meter& meter, T a, T b, const Place& place) {
+  const auto apart = static_cast<std::uint64_t>(std::max(a, b)) - static_cast<std::uint64_t>(std::min(a, b));
+  meter.value(static_cast<double>(apart), 0, place, static_cast<double>(a), static_cast<double>(b));
+}
+
 /// Zero tolerance, for planes of integers.
 template <class T>
 Measurement compare_equal(const Plane<T>& candidate, const Plane<T>& reference, const std::string& unit) {
   return compare_planes(candidate, reference, unit, [&](Meter& meter, int x, int y) {
-    const T a = candidate(x, y), b = reference(x, y);
-    const double diff =
-        integers_apart(static_cast<std::uint64_t>(std::max(a, b)), static_cast<std::uint64_t>(std::min(a, b)));
-    meter.value(diff, 0, {x, y, -1, ""}, static_cast<double>(a), static_cast<double>(b));
+    add_integers(meter, candidate(x, y), reference(x, y), {x, y, -1, ""});
   });
 }
 
