@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "capture/conventions.h"
 #include "capture/stages.h"
 #include "reference/arithmetic/bounded.h"
@@ -17,6 +19,17 @@ using math::kFloatRounding;
 using math::kFlushedUnderflow;
 using math::kGradualUnderflow;
 using math::Roundings;
+
+/// Barycentric weights at a point, and their slopes [1/pixel]. Triangle: of the unsnapped corners (stages.h, 6); of the
+/// snapped ones where the unsnapped area contradicts the facing. Line: by projection.
+struct Barycentrics {
+  Vec3<double> value, d_dx, d_dy;
+};
+
+/// Weights of the point (x, y) [pixel]; their sum is 1. Not finite where the snapped corners have no area either.
+Barycentrics barycentrics(const WindowTriangle<double>& triangle, double x, double y);
+/// Weights of the point's projection onto a line; value[1] is the share of the way to the line's second end.
+Barycentrics along_line(const WindowTriangle<double>& line, double x, double y);
 
 /// |M| |p|, the magnitude of the rounding errors of M p.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
@@ -60,6 +73,17 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, in
 /// pixel of the pixel's centre; where none does, over all. Line shifts: those of the edge nearest to the centre.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
                              const DepthLimits& limits = {});
+
+inline constexpr auto kUnsnapped = [](const WindowVertex<double>& v) { return glm::dvec2(v.p_win); };
+inline constexpr auto kSnapped = [](const WindowVertex<double>& v) { return glm::dvec2(v.snapped); };
+
+/// Twice the signed area of the corners' positions, by kUnsnapped [pixel^2] or by kSnapped [(1/256 pixel)^2]. Positive:
+/// counter-clockwise with y up.
+template <class Place>
+double twice_area(const WindowTriangle<double>& t, Place place) {
+  const glm::dvec2 a = place(t.v[0]), b = place(t.v[1]) - a, c = place(t.v[2]) - a;
+  return b.x * c.y - b.y * c.x;
+}
 
 /// True if a triangle's area, computed from its corners in float, may be 0; the planes are then undefined.
 bool area_may_vanish(const WindowTriangle<double>& triangle);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check/bounds/barycentrics.h"
+#include "check/bounds/bounds.h"
 
 namespace plumbline::check {
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "capture/float_depth.h"
-#include "check/bounds/barycentrics.h"
 #include "check/bounds/bounds.h"
 #include "check/bounds/mean_bounds.h"
 #include "check/bounds/shade_bounds.h"
@@ -14,7 +13,6 @@
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/shared_edges.h"
-#include "check/compare/window_area.h"
 #include "reference/arithmetic/matrices.h"
 #include "scene/draw_index.h"
 

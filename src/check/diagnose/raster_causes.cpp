@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "check/bounds/bounds.h"
 #include "check/compare/compare_records.h"
-#include "check/compare/window_area.h"
 #include "check/diagnose/coverage_differences.h"
 #include "check/diagnose/known_causes.h"
 #include "scene/antialias.h"

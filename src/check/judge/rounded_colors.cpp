@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "capture/by_conventions.h"
-#include "check/bounds/barycentrics.h"
+#include "check/bounds/bounds.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {

@@ -11,7 +11,6 @@
 #include "capture/fragment_outcomes.h"
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
-#include "check/compare/window_area.h"
 #include "reference/arithmetic/frame_color.h"
 #include "scene/draw_index.h"
 

@@ -1,5 +1,5 @@
 // Colours of planes at a pixel beside its triangle, and of a triangle whose plane is undefined.
-#include "check/bounds/barycentrics.h"
+#include "check/bounds/bounds.h"
 #include "tests/check/compare/planes.h"
 
 namespace plumbline::check {
