@@ -37,6 +37,12 @@ Barycentrics barycentrics(const WindowTriangle<double>& t, double x, double y) {
   return out;
 }
 
+glm::dvec2 depth_slopes(const WindowTriangle<double>& t) {
+  const Vec3<double> z(t.v[0].p_win.z, t.v[1].p_win.z, t.v[2].p_win.z);
+  const Barycentrics b = barycentrics(t, t.v[0].p_win.x, t.v[0].p_win.y);
+  return {std::abs(glm::dot(b.d_dx, z)), std::abs(glm::dot(b.d_dy, z))};
+}
+
 namespace {
 
 // Depth and colour at a share of the way along a line.
@@ -201,8 +207,7 @@ bool is_near(const WindowTriangle<double>& t, int x, int y) {
 
 std::span<const WindowTriangle<double>> triangles_of(const Records<double>& r, std::int32_t primitive) {
   const auto number = [](const WindowTriangle<double>& t) { return static_cast<std::int32_t>(t.primitive); };
-  const auto first = std::ranges::lower_bound(r.triangles, primitive, {}, number);
-  return {first, std::ranges::upper_bound(first, r.triangles.end(), primitive, {}, number)};
+  return std::ranges::equal_range(r.triangles, primitive, {}, number);
 }
 
 namespace {
@@ -260,26 +265,14 @@ double OffsetErrors::of(const WindowTriangle<double>& t) const {
   const Draw* draw = any_ && t.corners == 3 ? draws_.draw(t.primitive) : nullptr;
   if (draw == nullptr || draw->polygon_offset == PolygonOffset{}) return 0;
   const PolygonOffset& offset = draw->polygon_offset;
-  const auto& v = t.v;
-  const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
-  const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
-  const double m = std::max(std::abs(glm::dot(b.d_dx, z)), std::abs(glm::dot(b.d_dy, z)));
+  const Vec3<double> z(t.v[0].p_win.z, t.v[1].p_win.z, t.v[2].p_win.z);
+  const glm::dvec2 slopes = depth_slopes(t);
+  const double m = std::max(slopes.x, slopes.y);
   const double factor = std::abs(static_cast<double>(offset.factor)), units = static_cast<double>(offset.units);
   const auto r = math::offset_unit(draws_.scene().frame.depth, conventions_, std::max({z.x, z.y, z.z}));
   return factor * (4 * m + gradient_bound(t, z.x, z.y, z.z, m)) +
          2 * (factor * m + std::abs(units) * static_cast<double>(r));
 }
-
-namespace {
-
-// Absolute slopes of the depth in x and y.
-glm::dvec2 slopes_of(const WindowTriangle<double>& t) {
-  const Vec3<double> z(t.v[0].p_win.z, t.v[1].p_win.z, t.v[2].p_win.z);
-  const Barycentrics b = barycentrics(t, t.v[0].p_win.x, t.v[0].p_win.y);
-  return {std::abs(glm::dot(b.d_dx, z)), std::abs(glm::dot(b.d_dy, z))};
-}
-
-}  // namespace
 
 double OffsetErrors::factor_of(const WindowTriangle<double>& t) const {
   const Draw* draw = any_ && t.corners == 3 ? draws_.draw(t.primitive) : nullptr;
@@ -289,7 +282,7 @@ double OffsetErrors::factor_of(const WindowTriangle<double>& t) const {
 double OffsetErrors::by_length(const WindowTriangle<double>& t) const {
   const double factor = factor_of(t);
   if (factor == 0) return 0;
-  const glm::dvec2 slopes = slopes_of(t);
+  const glm::dvec2 slopes = depth_slopes(t);
   return factor * (glm::length(slopes) - std::max(slopes.x, slopes.y));
 }
 
@@ -301,7 +294,7 @@ double OffsetErrors::by_grid(const WindowTriangle<double>& t) const {
     v.p_win.x = 0.5 + v.snapped.x / double{kSubpixel};
     v.p_win.y = 0.5 + v.snapped.y / double{kSubpixel};
   }
-  const glm::dvec2 on_grid = slopes_of(snapped), slopes = slopes_of(t);
+  const glm::dvec2 on_grid = depth_slopes(snapped), slopes = depth_slopes(t);
   const double moved = factor * (std::max(on_grid.x, on_grid.y) - std::max(slopes.x, slopes.y));
   return std::isfinite(moved) ? moved : 0;
 }

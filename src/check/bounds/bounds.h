@@ -31,6 +31,9 @@ Barycentrics barycentrics(const WindowTriangle<double>& triangle, double x, doub
 /// Weights of the point's projection onto a line; value[1] is the share of the way to the line's second end.
 Barycentrics along_line(const WindowTriangle<double>& line, double x, double y);
 
+/// Absolute slopes of the depth in x and y [window z per pixel].
+glm::dvec2 depth_slopes(const WindowTriangle<double>& triangle);
+
 /// |M| |p|, the magnitude of the rounding errors of M p.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
 

@@ -109,10 +109,6 @@ std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<
   return a;
 }
 
-}  // namespace
-
-namespace {
-
 // Indices of the `wanted` fragments, of those whose triangle is recorded.
 template <class Wanted>
 std::vector<std::size_t> fragments_of(const Records<double>& r, const Wanted& wanted) {
@@ -197,9 +193,8 @@ Vec4<double> FragmentBounds::cut_error(std::uint32_t primitive, const std::vecto
     const auto corners = std::span(clip.vertices).subspan(polygon.first, polygon.count);
     return std::ranges::any_of(corners, &ClipVertex<double>::cut);
   };
-  const auto first = std::ranges::lower_bound(clip.polygons, primitive, {}, &ClipPolygon::primitive),
-             last = std::ranges::upper_bound(clip.polygons, primitive, {}, &ClipPolygon::primitive);
-  if (std::none_of(first, last, is_cut)) return Vec4<double>(0);
+  const auto own = std::ranges::equal_range(clip.polygons, primitive, {}, &ClipPolygon::primitive);
+  if (std::ranges::none_of(own, is_cut)) return Vec4<double>(0);
   return tolerance(Profile::opengl, Stage::clip).factor * u * largest_of(primitive, column, false);
 }
 

@@ -45,11 +45,10 @@ Vec4<double> slope_rounding(const WindowTriangle<double>& t, int x, int y, const
 
 double depth_rounding(const WindowTriangle<double>& t) {
   constexpr double kTerms = 6 * 0x1p-53, kPixels = 128;
-  const auto& v = t.v;
-  const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
-  const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
-  const double slopes = std::abs(glm::dot(b.d_dx, z)) + std::abs(glm::dot(b.d_dy, z));
-  const double out = kTerms * (std::max({std::abs(z.x), std::abs(z.y), std::abs(z.z)}) + kPixels * slopes);
+  const Vec3<double> z(t.v[0].p_win.z, t.v[1].p_win.z, t.v[2].p_win.z);
+  const glm::dvec2 slopes = depth_slopes(t);
+  const double most = std::max({std::abs(z.x), std::abs(z.y), std::abs(z.z)});
+  const double out = kTerms * (most + kPixels * (slopes.x + slopes.y));
   return std::isfinite(out) ? out : 0;
 }
 

@@ -10,6 +10,7 @@
 
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
+#include "check/compare/compare_records.h"
 #include "check/compare/same_winners.h"
 #include "scene/draw_index.h"
 
@@ -44,12 +45,8 @@ LinesOfPixels lines_of(const Records<double>& r) {
 }
 
 // The planes of coverage without the lines.
-struct Rest {
-  Plane<std::uint32_t> count;
-  Plane<std::uint64_t> id_sum;
-};
-Rest without(const LinesOfPixels& lines, const Planes& planes) {
-  Rest rest{planes.count, planes.id_sum};
+FragmentSums without(const LinesOfPixels& lines, const Planes& planes) {
+  FragmentSums rest{planes.count, planes.id_sum};
   for (const auto& [key, line] : lines) {
     const std::uint32_t primitive = key.first;
     for (const glm::ivec2 p : line.pixels) {
@@ -194,7 +191,7 @@ Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, 
     compare_line(meter, key.first, at(mine), at(theirs), box_of(draws, key.first, extent), factor);
     meter.item();
   }
-  const Rest rest_a = without(mine, a), rest_b = without(theirs, b);
+  const FragmentSums rest_a = without(mine, a), rest_b = without(theirs, b);
   for (int y = 0; y < a.count.height(); ++y) {
     for (int x = 0; x < a.count.width(); ++x) {
       const bool same = rest_a.count(x, y) == rest_b.count(x, y) && rest_a.id_sum(x, y) == rest_b.id_sum(x, y);

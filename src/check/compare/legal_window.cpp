@@ -147,9 +147,8 @@ Vec3<double> LegalWindow::error(std::uint32_t primitive, const Vec3<double>& p_w
 }
 
 std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) const {
-  const std::vector<ClipPolygon>& all = records_.polygons.polygons;
-  const std::span<const ClipPolygon> polygons(std::ranges::lower_bound(all, primitive, {}, &ClipPolygon::primitive),
-                                              std::ranges::upper_bound(all, primitive, {}, &ClipPolygon::primitive));
+  const std::span<const ClipPolygon> polygons =
+      std::ranges::equal_range(records_.polygons.polygons, primitive, {}, &ClipPolygon::primitive);
   const auto number = draws_.of_primitive(primitive);
   if (polygons.empty() || !number || *number >= records_.matrices.size()) return {};
   const Draw& draw = scene_.draws[*number];

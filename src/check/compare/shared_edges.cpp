@@ -55,10 +55,9 @@ std::optional<std::uint32_t> SharedEdges::beyond(std::uint32_t t, glm::dvec2 p_w
     const glm::dvec2 along = edge->high - edge->low, to = p_win - edge->low;
     const double way = glm::dot(along, to);
     if (side_of(along, to) != 0 || !(way > 0) || !(way < glm::dot(along, along))) continue;
-    const auto first = std::ranges::lower_bound(edges_, ends(*edge), {}, [](const Edge& e) { return ends(e); });
-    const auto last = std::ranges::upper_bound(edges_, ends(*edge), {}, [](const Edge& e) { return ends(e); });
-    if (last - first != 2 || first->is_left == (first + 1)->is_left) return std::nullopt;
-    return first->triangle == t ? (first + 1)->triangle : first->triangle;
+    const auto alike = std::ranges::equal_range(edges_, ends(*edge), {}, [](const Edge& e) { return ends(e); });
+    if (alike.size() != 2 || alike[0].is_left == alike[1].is_left) return std::nullopt;
+    return alike[0].triangle == t ? alike[1].triangle : alike[0].triangle;
   }
   return std::nullopt;
 }

@@ -18,8 +18,6 @@
 
 namespace plumbline::check {
 
-/// The names of the frame's formats in the manifest.
-
 /// A set, locked while this lives: many may read it at a time, or one may update it.
 class GoldenSet {
  public:
