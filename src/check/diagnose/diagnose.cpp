@@ -10,7 +10,7 @@
 #include "check/diagnose/coverage_differences.h"
 #include "check/diagnose/effect.h"
 #include "check/diagnose/worst_record.h"
-#include "check/judge/failing_stage.h"
+#include "check/judge/captures.h"
 #include "check/judge/judge_passes.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"

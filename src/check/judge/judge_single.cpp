@@ -9,8 +9,6 @@
 
 #include "capture/by_conventions.h"
 #include "check/bounds/open_pixels.h"
-#include "check/judge/captures.h"
-#include "check/judge/failing_stage.h"
 #include "check/judge/judge_records.h"
 #include "check/judge/rotate_corners.h"
 #include "check/judge/rows.h"

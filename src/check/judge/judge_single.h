@@ -6,7 +6,7 @@
 #include <string>
 
 #include "capture/renderer.h"
-#include "check/judge/reference.h"
+#include "check/judge/captures.h"
 #include "check/verdict/verdict.h"
 #include "scene/scene.h"
 
