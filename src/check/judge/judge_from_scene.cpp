@@ -3,10 +3,10 @@
 
 #include "check/bounds/open_pixels.h"
 #include "check/compare/compare_records.h"
+#include "check/judge/foreign_records.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
-#include "check/judge/unit_normals.h"
 
 namespace plumbline::check {
 

@@ -9,11 +9,10 @@
 
 #include "capture/by_conventions.h"
 #include "check/bounds/open_pixels.h"
+#include "check/judge/foreign_records.h"
 #include "check/judge/judge_records.h"
-#include "check/judge/rotate_corners.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
-#include "check/judge/unit_normals.h"
 #include "check/verdict/votes.h"
 
 namespace plumbline::check {

@@ -8,9 +8,9 @@
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
 #include "check/compare/legal_window.h"
+#include "check/judge/foreign_records.h"
 #include "check/judge/rows.h"
 #include "check/judge/stage_inputs.h"
-#include "check/judge/unit_normals.h"
 #include "check/polygons/compare_polygons.h"
 #include "check/polygons/cut_at_sides.h"
 

@@ -1,5 +1,5 @@
 // A renderer may begin its window triangles at any corner.
-#include "check/judge/rotate_corners.h"
+#include "check/judge/foreign_records.h"
 
 #include <algorithm>
 #include <memory>
