@@ -8,7 +8,6 @@
 #include "capture/by_conventions.h"
 #include "check/diagnose/causes.h"
 #include "check/diagnose/coverage_differences.h"
-#include "check/diagnose/effect.h"
 #include "check/diagnose/worst_record.h"
 #include "check/judge/captures.h"
 #include "check/judge/judge_passes.h"

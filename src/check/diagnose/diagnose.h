@@ -22,7 +22,7 @@ struct Finding {
   std::vector<std::string> numbers;  ///< the worst record: input, output, expected output and its source
   std::vector<std::string> causes;   ///< likely causes in words, with what shows them (causes.h)
   std::vector<std::string> kinds;    ///< the same causes, without what shows them
-  std::size_t explains = 0;          ///< pixels of the final picture (effect.h); 0: none, or fragments were too many
+  std::size_t explains = 0;          ///< pixels of the final picture (evidence.h); 0: none, or fragments were too many
   std::string picture;  ///< coverage: the worst triangle, `#` both, `?` missing, `!` extra; rows from the top; or empty
 };
 

@@ -1,5 +1,8 @@
-// Evidence of a diagnosis: one wrong stage of the candidate, and the same stage as it should be.
+// Evidence of a diagnosis: one wrong stage of the candidate, and the same stage as it should be; and how much of the
+// final picture it explains.
 #pragma once
+
+#include <cstddef>
 
 #include "capture/capture.h"
 #include "capture/renderer.h"
@@ -18,5 +21,10 @@ struct Evidence {
   Conventions conventions = {};  ///< of the candidate
   bool foreign = false;          ///< the candidate is Profile::foreign
 };
+
+/// Number of pixels whose colour or depth differs between two frames that the referee completes: one from the
+/// candidate's records up to the evidence's stage, one with the expected records of that stage. Differences of at most
+/// 1/255 in colour and one step in depth do not count. 0 without a referee, or where it fails.
+std::size_t pixels_explained(const Evidence& evidence);
 
 }  // namespace plumbline::check

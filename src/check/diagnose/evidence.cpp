@@ -1,4 +1,4 @@
-#include "check/diagnose/effect.h"
+#include "check/diagnose/evidence.h"
 
 #include <algorithm>
 #include <cmath>
