@@ -27,26 +27,16 @@ struct Textured {
   const Texture* texture = nullptr;  // null: the fragment has none
   std::optional<Vec2<double>> st{};  // nullopt: not shown
 };
-class TexturedFragments {
- public:
-  TexturedFragments(const Scene& scene, const Records<double>& records)
-      : scene_(scene), records_(records), draws_(scene) {}
-  Textured operator()(std::size_t i) const {
-    const Covered& c = records_.covered[i];
-    const auto& texcoords = records_.varyings[Varying::texture].fragments;
-    if (c.triangle >= records_.triangles.size()) return {};
-    const Draw* draw = draws_.draw(records_.triangles[c.triangle].primitive);
-    if (draw == nullptr || !draw->texture) return {};
-    Textured out{&scene_.textures.at(draw->texture->texture)};
-    if (i < texcoords.size()) out.st = Vec2<double>(texcoords[i]);
-    return out;
-  }
-
- private:
-  const Scene& scene_;
-  const Records<double>& records_;
-  DrawIndex draws_;
-};
+Textured textured_fragment(const DrawIndex& draws, const Records<double>& records, std::size_t i) {
+  const Covered& c = records.covered[i];
+  const auto& texcoords = records.varyings[Varying::texture].fragments;
+  if (c.triangle >= records.triangles.size()) return {};
+  const Draw* draw = draws.draw(records.triangles[c.triangle].primitive);
+  if (draw == nullptr || !draw->texture) return {};
+  Textured out{&draws.scene().textures.at(draw->texture->texture)};
+  if (i < texcoords.size()) out.st = Vec2<double>(texcoords[i]);
+  return out;
+}
 
 // Rounding error of a level of detail, which shows where texel coordinates hardly change between pixels. A foreign
 // candidate's is that of float: 4 u of each term from the window's origin, or of the values of pixels side by side
@@ -124,7 +114,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   if (candidate.texels.size() != count || reference.texels.size() != count) {
     return mismatch("u", "not a texel for each fragment", std::max(candidate.texels.size(), count));
   }
-  const TexturedFragments textured(scene, candidate);
+  const DrawIndex draws(scene);
   std::map<const Texture*, double> magnitudes;
   for (const Texture& texture : scene.textures) magnitudes[&texture] = std::max(1.0, largest_texel(texture));
   magnitudes[nullptr] = 1;
@@ -135,7 +125,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   for (std::size_t i = 0; i < count; ++i) {
     const Covered& c = candidate.covered[i];
     const Texel<double>&a = candidate.texels[i], &b = reference.texels[i];
-    const Textured of = textured(i);
+    const Textured of = textured_fragment(draws, candidate, i);
     const bool lacks_lod = is_foreign && std::isnan(a.lod);
     const double unit = u * magnitudes.at(of.texture);
     TexelRange range;
@@ -176,35 +166,21 @@ struct WinnersTexel {
   std::string_view reason;  // the reference's fault; empty: none
 };
 
-class WinnersTexels {
- public:
-  WinnersTexels(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
-      : scene_(scene),
-        candidate_(candidate),
-        bounds_(scene, candidate, reference, factor),
-        drawn_(FragmentsByPixel::drawn(scene.frame, candidate.records)) {}
-
-  WinnersTexel at(int x, int y) const {
-    WinnersTexel out{};
-    out.bound.range.lo = out.bound.range.hi = Vec4<double>(candidate_.planes.texel(x, y));
-    std::optional<std::size_t> last;
-    drawn_.each(x, y, [&](std::size_t i) { last = i; });
-    if (!last) return out;
-    const Records<double>& r = candidate_.records;
-    const Draw& draw = bounds_.draw_of(r.triangles[r.covered[*last].triangle].primitive);
-    if (!draw.texture) return out;
-    out.bound = bounds_.texel(*last);
-    out.share = bounds_.open_texels(*last);
-    out.reason = mesas_other_level(scene_.textures.at(draw.texture->texture), out.bound.range);
-    return out;
-  }
-
- private:
-  const Scene& scene_;
-  const Capture& candidate_;
-  FragmentBounds bounds_;
-  FragmentsByPixel drawn_;
-};
+WinnersTexel winners_texel(const Scene& scene, const Capture& candidate, const FragmentBounds& bounds,
+                           const FragmentsByPixel& drawn, int x, int y) {
+  WinnersTexel out{};
+  out.bound.range.lo = out.bound.range.hi = Vec4<double>(candidate.planes.texel(x, y));
+  std::optional<std::size_t> last;
+  drawn.each(x, y, [&](std::size_t i) { last = i; });
+  if (!last) return out;
+  const Records<double>& r = candidate.records;
+  const Draw& draw = bounds.draw_of(r.triangles[r.covered[*last].triangle].primitive);
+  if (!draw.texture) return out;
+  out.bound = bounds.texel(*last);
+  out.share = bounds.open_texels(*last);
+  out.reason = mesas_other_level(scene.textures.at(draw.texture->texture), out.bound.range);
+  return out;
+}
 
 bool is_beyond(const Vec4<double>& texel, const TexelBound& bound) {
   return glm::any(glm::lessThan(texel, bound.range.lo - bound.slack)) ||
@@ -218,7 +194,8 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
   if (!same_size(a.id, b.id, why) || !same_size(a.id, a.texel, why)) return mismatch("u", why, a.id.size());
-  const WinnersTexels texels(scene, candidate, reference, factor);
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  const FragmentsByPixel drawn = FragmentsByPixel::drawn(scene.frame, candidate.records);
   double area = 0, centres = 0;
   std::uint64_t open = 0;
   Measurement m = compare_planes(a.texel, b.texel, "u", [&](Meter& meter, int x, int y) {
@@ -230,7 +207,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
       for (const Vec4<double>& texel : {mine, theirs}) add_finite_color(meter, texel, place);
       return;
     }
-    const auto [bound, share, reason] = texels.at(x, y);
+    const auto [bound, share, reason] = winners_texel(scene, candidate, bounds, drawn, x, y);
     area += share.area;
     centres += share.centre ? 1 : 0;
     const bool is_open = !std::isfinite(bound.slack.r);
