@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -23,23 +24,16 @@ constexpr std::string_view kBehindEye =
 const Records<double> kNone;
 const std::vector<Vec4<double>> kNowhere;
 
-// Difference of a member (&Lit<double>::color) of both sides per vertex; `granted` where the reference has no such
-// records.
+// Difference of what of() takes from both sides' records, per vertex; `granted` where the reference has no such records.
 template <class Record>
-std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b, auto member,
+std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b, auto of,
                                         double granted) {
   std::vector<Vec4<double>> out(a.size(), Vec4<double>(granted));
   if (b.size() != a.size()) return out;
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::abs(a[i].*member - b[i].*member);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::abs(std::invoke(of, a[i]) - std::invoke(of, b[i]));
   return out;
 }
-
-std::vector<Vec4<double>> normals_apart(const Records<double>& a, const Records<double>& b) {
-  std::vector<Vec4<double>> out(a.vertices.size(), Vec4<double>(0));
-  if (b.vertices.size() != a.vertices.size()) return out;
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {glm::abs(a.vertices[i].n_eye - b.vertices[i].n_eye), 0};
-  return out;
-}
+Vec4<double> normal_of(const Vertex<double>& v) { return {v.n_eye, 0}; }
 
 // Per vertex, bound of a reference's fog coordinate against the z_eye that it hands out: both are the z row of M p, but
 // the order of its four products and three sums may differ.
@@ -151,7 +145,7 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       eye_apart_(
           larger(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0),
                  fog_apart(scene, candidate.records))),
-      normals_apart_(normals_apart(candidate.records, reference.records)),
+      normals_apart_(columns_apart(candidate.records.vertices, reference.records.vertices, normal_of, 0)),
       drawn_(FragmentsByPixel::drawn(scene.frame, is_plain(scene) ? kNone : candidate.records)) {
   for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
   for (const Texture& texture : scene.textures)
