@@ -55,13 +55,9 @@ void unfiltered(Sampler& t) {
                                                       : t.min;
 }
 DepthFunc turned(DepthFunc func) {
-  switch (func) {
-    case DepthFunc::less: return DepthFunc::greater;
-    case DepthFunc::less_equal: return DepthFunc::greater_equal;
-    case DepthFunc::greater: return DepthFunc::less;
-    case DepthFunc::greater_equal: return DepthFunc::less_equal;
-    default: return func;
-  }
+  using enum DepthFunc;
+  constexpr std::array kTurned = {never, greater, equal, greater_equal, less, not_equal, less_equal, always};
+  return kTurned[static_cast<std::size_t>(func)];
 }
 
 LogicOp other_side(LogicOp op) {
