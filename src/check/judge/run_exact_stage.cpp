@@ -18,7 +18,6 @@
 #include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_inputs.h"
 #include "check/polygons/compare_polygons.h"
-#include "check/polygons/cut_at_sides.h"
 #include "scene/antialias.h"
 #include "scene/draw_index.h"
 

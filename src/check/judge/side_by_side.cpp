@@ -12,7 +12,6 @@
 #include "check/judge/rows.h"
 #include "check/judge/stage_inputs.h"
 #include "check/polygons/compare_polygons.h"
-#include "check/polygons/cut_at_sides.h"
 
 namespace plumbline::check {
 

@@ -1,5 +1,5 @@
 // Polygons of renderers that leave the sides of the view volume to the raster.
-#include "check/polygons/cut_at_sides.h"
+#include "check/polygons/compare_polygons.h"
 
 #include "tests/check/polygons/polygons.h"
 
