@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "check/bounds/units.h"
-#include "check/polygons/clip_distances.h"
 
 namespace plumbline::check {
 

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "check/polygons/clip_distances.h"
-
 namespace plumbline::check {
 
 namespace {
