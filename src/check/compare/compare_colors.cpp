@@ -130,45 +130,23 @@ struct Layers {
   glm::bvec4 reads_clear_color{false};  // a logic op has combined it
 };
 
-// Layers of each pixel. A reference's fault at a fragment makes later values suspect.
-class LayersOfPixels {
- public:
-  LayersOfPixels(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
-      : records_(candidate.records),
-        bounds_(scene, candidate, reference, factor),
-        drawn_(FragmentsByPixel::drawn(scene.frame, candidate.records)),
-        scale_(color_scale(scene.frame.color)) {}
-
-  Layers at(int x, int y, Meter& meter) const {
-    Layers out;
-    drawn_.each(x, y, [&](std::size_t i) { add(i, meter, out); });
-    out.combined = out.combined && scale_ > 0;
-    return out;
+// Lays fragment `i` over the layers. A reference's fault at it makes later values suspect.
+void add_layer(const Records<double>& r, const FragmentBounds& bounds, double scale, std::size_t i, Meter& meter,
+               Layers& out) {
+  const FragmentBound of = bounds.of_fragment(i);
+  ++out.count;
+  if (!of.reason.empty()) meter.suspect(of.reason);
+  const Vec4<double> sum = of.color + glm::abs(of.line_shift) + of.apart;
+  out.bound += std::max({sum.r, sum.g, sum.b, sum.a});
+  const Merge& merge = bounds.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
+  out.combined = out.combined || (merge.logic_op && scale > 0);
+  for (int c = 0; c < 4; ++c) {
+    if (merge.logic_op) out.reads_clear_color[c] = out.reads_clear_color[c] || out.holds_clear_color[c];
+    if (!merge.logic_op && !merge.blend && merge.color_mask[c]) out.holds_clear_color[c] = false;
   }
-
- private:
-  void add(std::size_t i, Meter& meter, Layers& out) const {
-    const FragmentBound of = bounds_.of_fragment(i);
-    ++out.count;
-    if (!of.reason.empty()) meter.suspect(of.reason);
-    const Vec4<double> sum = of.color + glm::abs(of.line_shift) + of.apart;
-    out.bound += std::max({sum.r, sum.g, sum.b, sum.a});
-    const Records<double>& r = records_;
-    const Merge& merge = bounds_.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
-    out.combined = out.combined || merge.logic_op;
-    for (int c = 0; c < 4; ++c) {
-      if (merge.logic_op) out.reads_clear_color[c] = out.reads_clear_color[c] || out.holds_clear_color[c];
-      if (!merge.logic_op && !merge.blend && merge.color_mask[c]) out.holds_clear_color[c] = false;
-    }
-    out.certain = out.certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
-                  codes_of(r.shaded[i].color - sum, scale_) == codes_of(r.shaded[i].color + sum, scale_);
-  }
-
-  const Records<double>& records_;
-  FragmentBounds bounds_;
-  FragmentsByPixel drawn_;
-  double scale_;
-};
+  out.certain = out.certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
+                codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);
+}
 
 }  // namespace
 
@@ -176,7 +154,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
                             double codes, double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   const double scale = color_scale(scene.frame.color);
-  const LayersOfPixels layers_of(scene, candidate, reference, factor);
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  const FragmentsByPixel fragments = FragmentsByPixel::drawn(scene.frame, candidate.records);
   const Plane<std::uint8_t> tied = legal.empty() ? open_by_depth(scene, candidate) : Plane<std::uint8_t>();
   const OthersCover others_cover(a, b);
   const std::string unit = code_unit(scene.frame);
@@ -186,7 +165,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     const Place place{x, y, id, "color", true};
     const bool open = others_cover(x, y) || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
                       (!tied.empty() && tied(x, y) != 0);
-    const Layers drawn = layers_of.at(x, y, meter);
+    Layers drawn;
+    fragments.each(x, y, [&](std::size_t i) { add_layer(candidate.records, bounds, scale, i, meter, drawn); });
     // A fragment's error counts as source colour, in the source's factor, and in the factor of the frame's colour,
     // which is at most `held` (codes: 1; float: the number of fragments).
     const double layers = reads ? std::exp2(drawn.count) - 1 : drawn.count,
