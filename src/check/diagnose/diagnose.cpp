@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "capture/by_conventions.h"
-#include "check/diagnose/causes.h"
 #include "check/diagnose/coverage_differences.h"
+#include "check/diagnose/known_causes.h"
 #include "check/diagnose/worst_record.h"
 #include "check/judge/captures.h"
 #include "check/judge/judge_passes.h"

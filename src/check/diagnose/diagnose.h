@@ -20,7 +20,7 @@ struct Finding {
   JudgeId judge{""};                 ///< who judged it
   Measurement measurement;           ///< and by how much it is off
   std::vector<std::string> numbers;  ///< the worst record: input, output, expected output and its source
-  std::vector<std::string> causes;   ///< likely causes in words, with what shows them (causes.h)
+  std::vector<std::string> causes;   ///< likely causes in words, with what shows them (known_causes.h)
   std::vector<std::string> kinds;    ///< the same causes, without what shows them
   std::size_t explains = 0;          ///< pixels of the final picture (evidence.h); 0: none, or fragments were too many
   std::string picture;  ///< coverage: the worst triangle, `#` both, `?` missing, `!` extra; rows from the top; or empty

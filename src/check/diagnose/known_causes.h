@@ -1,11 +1,12 @@
-// Known causes of wrong stages, each as a change of the stage's input or output, or as a pattern of differences
-// (causes.h).
+// Likely causes of a wrong stage, in words. A known cause is a change of the stage's input or output, likely if exact,
+// with the cause put in, makes the candidate's records; or a pattern, likely if the differences of all records show it.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -132,5 +133,17 @@ void swap_red_and_blue(std::vector<T>& records) {
 /// Whether the sample at `place` [1/256 pixel] from the pixel's centre lies exactly on the line through two of the
 /// triangle's snapped corners, even beyond these corners. Two corners that coincide have no line.
 bool on_an_edge(const WindowTriangle<double>& triangle, glm::ivec2 pixel, glm::ivec2 place);
+
+struct Cause {
+  std::string_view name;  ///< such as "window.y_flipped"
+  std::string words;      ///< the cause
+  std::string shown{};    ///< what shows it, after a space; or empty
+};
+
+/// Likely causes. First: causes whose pattern the differences show. Then: of the causes that the referee tries, those
+/// that leave the fewest records unexplained, at most 1 in 50 of the differing records (ties, and what rounding
+/// decides). Both parts are in the order of all_causes(). Several causes that leave no record at all are not
+/// named: the one cause "nothing_left" stands for all of them. Empty without a referee.
+std::vector<Cause> likely_causes(const Evidence& evidence);
 
 }  // namespace plumbline::check

@@ -1,5 +1,4 @@
 // Likely causes: each is named for the bug that it is, and for no other.
-#include "check/diagnose/causes.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "check/diagnose/causes.h"
+#include "check/diagnose/known_causes.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "check/compare/compare_records.h"
-#include "check/diagnose/known_causes.h"
 #include "check/judge/judge_passes.h"
 #include "check/judge/rows.h"
 #include "check/judge/run_by_conventions.h"
