@@ -7,8 +7,8 @@
 
 #include "capture/by_conventions.h"
 #include "check/diagnose/coverage_differences.h"
+#include "check/diagnose/evidence.h"
 #include "check/diagnose/known_causes.h"
-#include "check/diagnose/worst_record.h"
 #include "check/judge/captures.h"
 #include "check/judge/judge_passes.h"
 #include "check/judge/rows.h"

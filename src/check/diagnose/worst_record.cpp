@@ -1,4 +1,4 @@
-#include "check/diagnose/worst_record.h"
+#include "check/diagnose/evidence.h"
 
 #include <algorithm>
 #include <cmath>
