@@ -17,9 +17,11 @@ namespace plumbline::check {
 
 namespace {
 
-// Reason why the frame alone judges the stage's colours: conventions whose effect the candidate's records do not show.
-// Empty: there is none.
-std::string_view why_by_frame(const Scene& scene, Stage stage, const Conventions& conventions) {
+// Reason why the stage is not judged: a view volume that is not exact's, or conventions whose effect the candidate's
+// records do not show. Empty: there is none.
+std::string_view why_not(const Scene& scene, Stage stage, const Conventions& conventions) {
+  if ((stage == Stage::clip || stage == Stage::window) && has_other_volume(conventions))
+    return "its view volume is another";
   if (stage == Stage::shade && fogs_by_vertices(scene, conventions))
     return "its fog factors are of vertices: the frame's colours are judged";
   if ((stage == Stage::light || stage == Stage::clip) && has_codes_of_vertices(scene.frame, conventions))
@@ -43,11 +45,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
   const JudgeId name(info.name, Kind::per_stage);
   for (const Stage stage : stages_of(scene, Stage::vertex)) {
     if (!info[stage].runs) continue;
-    if ((stage == Stage::clip || stage == Stage::window) && has_other_volume(c.conventions)) {
-      c.skip(name, stage, Outcome::unsupported, "its view volume is another");
-      continue;
-    }
-    if (const std::string_view reason = why_by_frame(scene, stage, c.conventions); !reason.empty()) {
+    if (const std::string_view reason = why_not(scene, stage, c.conventions); !reason.empty()) {
       c.skip(name, stage, Outcome::unsupported, reason);
       continue;
     }
