@@ -37,8 +37,6 @@ Spot snapped_spot(const WindowCorner& c, const Conventions& grid) {
   return out;
 }
 
-Spot unsnapped_spot(const WindowCorner& c) { return {Vec2<double>(c.vertex.p_win), Vec2<double>(c.error)}; }
-
 // Interval of twice the signed area.
 struct Area {
   double least, most;
@@ -65,7 +63,7 @@ Area area_of(std::span<const Spot> spots, double rounding) {
 // In float: two differences, a product and a sum round, 4 u of the terms.
 Area unsnapped_area(std::span<const WindowCorner> corners) {
   std::vector<Spot> spots;
-  for (const WindowCorner& c : corners) spots.push_back(unsnapped_spot(c));
+  for (const WindowCorner& c : corners) spots.push_back({Vec2<double>(c.vertex.p_win), Vec2<double>(c.error)});
   return area_of(spots, 4 * u);
 }
 

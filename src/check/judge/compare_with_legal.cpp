@@ -13,10 +13,6 @@ namespace plumbline::check {
 
 namespace {
 
-std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
-  return fmt::format("{} ambiguous, {:.1f} predicted", ambiguous, legal.predicted_ambiguous);
-}
-
 // Cracks and double paint: a sample on edges that triangles share is in one of them, whatever the tie rule. Where as
 // many other samples differ, triangles may be missing, or drawn twice.
 std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
@@ -95,7 +91,7 @@ void compare_with_legal(const SceneJudgement& c, const Legal& legal, Stage stage
       // Budget: twice the prediction and three standard deviations.
       const double budget = 2 * legal.predicted_ambiguous;
       const double scatter = 3 * std::sqrt(budget + 1);
-      std::string note = ambiguity_note(legal, m.ambiguous);
+      std::string note = fmt::format("{} ambiguous, {:.1f} predicted", m.ambiguous, legal.predicted_ambiguous);
       if (predicts_open_pixels(c.conventions) && !(static_cast<double>(m.ambiguous) <= budget + scatter)) {
         note += ": more than twice as many";
         m.differing = std::max(m.differing, m.ambiguous);

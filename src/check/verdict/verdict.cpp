@@ -206,12 +206,11 @@ std::string judged_text(const SceneVerdict& verdict) {
 std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
   std::vector<Stage> out;
   for (const Stage stage : kAllStages) {
-    const bool judged_by_any = was_judged(verdict, stage);
     // Nobody says anything of a stage that the scene does not have.
-    const bool of_some = row_of(stage).in_scene != nullptr;
-    const bool asked =
-        !of_some || std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) { return c.stage == stage; });
-    if (asked && !judged_by_any) out.push_back(stage);
+    const bool is_asked =
+        row_of(stage).in_scene == nullptr ||
+        std::ranges::find(verdict.comparisons, stage, &Comparison::stage) != verdict.comparisons.end();
+    if (is_asked && !was_judged(verdict, stage)) out.push_back(stage);
   }
   return out;
 }
