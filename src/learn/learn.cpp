@@ -86,8 +86,9 @@ Learned learn(Renderer& renderer) {
   learn_rows_by_any(prober);
   int failures = 0;
   for (const Probe& probe : probes()) {
-    if (prober.sees_nothing) {
-      leave_open(prober, probe, "nothing is seen of the first probe");
+    if (prober.sees_nothing || failures == kMostFailures) {
+      leave_open(prober, probe,
+                 prober.sees_nothing ? "nothing is seen of the first probe" : "the program failed on three probes");
       continue;
     }
     try {
@@ -95,7 +96,7 @@ Learned learn(Renderer& renderer) {
     } catch (const Unsupported& e) {
       leave_open(prober, probe, e.what());
     } catch (const RendererFailed& e) {
-      if (++failures == kMostFailures) throw;
+      ++failures;
       const std::string said = e.what(), line = said.substr(0, said.find('\n'));  // without the end of its stderr
       leave_open(prober, probe, line);
       prober.unexplained(line);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "learn/probe_scene.h"
 #include "learn/prober.h"
@@ -31,20 +32,32 @@ Scene at_depths(const Prober& prober, const std::string& name, const std::vector
   return scene;
 }
 
+// Depths of rectangles that are drawn: given, and left; and the given depths of others.
+struct Depths {
+  std::vector<double> given, left, lost;
+};
+
 // Depth of each rectangle, at a pixel inside one of its two triangles.
-std::vector<double> depths_of(Prober& prober, const std::string& name, const std::vector<double>& depths,
-                              DepthFormat format = DepthFormat::z24) {
+Depths depths_of(Prober& prober, const std::string& name, const std::vector<double>& depths,
+                 DepthFormat format = DepthFormat::z24) {
   Scene scene = at_depths(prober, name, depths);
   scene.frame.depth = format;
-  const Plane<double> plane = prober.draw_depths(scene);
-  std::vector<double> out;
-  for (std::size_t i = 0; i < depths.size(); ++i)
-    out.push_back(plane(static_cast<int>(4 * (i % kDepthsInRow) + 1), static_cast<int>(4 * (i / kDepthsInRow) + 2)));
+  const Planes planes = prober.draw_with_depths(scene);
+  Depths out;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const int x = static_cast<int>(4 * (i % kDepthsInRow) + 1), y = static_cast<int>(4 * (i / kDepthsInRow) + 2);
+    if (!is_white(planes.color(x, y))) {
+      out.lost.push_back(depths[i]);
+    } else {
+      out.given.push_back(depths[i]), out.left.push_back(planes.depth(x, y));
+    }
+  }
   return out;
 }
 
-// Number of depths `left` within 1e-4 of the `given` ones mapped to the range.
-std::size_t fitting(C::DepthRange range, const std::vector<double>& given, const std::vector<double>& left) {
+// Number of depths left within 1e-4 of the given ones mapped to the range.
+std::size_t fitting(C::DepthRange range, const Depths& depths) {
+  const auto& [given, left, lost] = depths;
   std::size_t out = 0;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const double z = range == C::DepthRange::minus_one_to_one ? 2 * given[i] - 1
@@ -82,7 +95,8 @@ struct Codes {
   std::array<std::size_t, kRoundings.size()> fits{};
   std::size_t most() const { return *std::ranges::max_element(fits); }
 };
-Codes codes_of(double bits, const std::vector<double>& given, const std::vector<double>& left, C::DepthRange range) {
+Codes codes_of(double bits, const Depths& depths, C::DepthRange range) {
+  const auto& [given, left, lost] = depths;
   const double scale = std::ldexp(1.0, static_cast<int>(bits)) - 1;
   Codes out;
   for (std::size_t i = 0; i < given.size(); ++i) {
@@ -101,6 +115,8 @@ void learn_rounding(Prober& prober, const Codes& codes, std::size_t n) {
   const ConventionWords words = words_of("depth_rounding");
   const std::string evidence = fmt::format("{} of {} depths", codes.most(), n);
   if (!nearly_all(codes.most(), n)) return prober.fits_none(words, evidence + " at most are explained by one rounding");
+  if (std::ranges::count(codes.fits, codes.most()) > 1)
+    return prober.open(words, "the depths that are drawn do not tell roundings apart");
   C& c = prober.learned.conventions;
   c.depth_rounding = kRoundings[static_cast<std::size_t>(std::ranges::max_element(codes.fits) - codes.fits.begin())];
   prober.found(words, name_of(c.depth_rounding), evidence);
@@ -108,17 +124,16 @@ void learn_rounding(Prober& prober, const Codes& codes, std::size_t n) {
 
 // Depth format and rounding of a renderer that leaves 24-bit codes where a 24-bit frame asks for them. A 16-bit frame
 // shows the rounding, which float arithmetic hides at 24 bits: from z 1/2 on, floats hold no half of a code.
-void learn_16_bits(Prober& prober, const std::vector<double>& given, const Codes& codes) {
+void learn_16_bits(Prober& prober, const Codes& codes, std::size_t n) {
   C& c = prober.learned.conventions;
-  const std::size_t n = given.size();
   const auto found = [&](C::Depth format, const std::string& evidence) {
     c.depth_format = format;
     prober.found(words_of("depth_format"), name_of(format), evidence);
   };
   const std::string of_24 = fmt::format("{} of {} depths are within a code of 24 bits", codes.near, n);
   try {
-    const std::vector<double> left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16);
-    const Codes of_16 = codes_of(16, given, left, c.depth_range), still = codes_of(24, given, left, c.depth_range);
+    const Depths depths = depths_of(prober, "depth_codes_16", given_depths(), DepthFormat::z16);
+    const Codes of_16 = codes_of(16, depths, c.depth_range), still = codes_of(24, depths, c.depth_range);
     if (of_16.codes == n) {
       found(C::Depth::as_asked, of_24 + ", of 16 bits where those are asked for");
       return learn_rounding(prober, of_16, n);
@@ -135,14 +150,14 @@ void learn_16_bits(Prober& prober, const std::vector<double>& given, const Codes
 
 void learn_format(Prober& prober) {
   const ConventionWords format = words_of("depth_format"), rounding = words_of("depth_rounding");
-  const std::vector<double> given = given_depths();
-  const std::vector<double> left = depths_of(prober, "depth_codes", given);
+  const Depths depths = depths_of(prober, "depth_codes", given_depths());
+  const auto& [given, left, lost] = depths;
   const auto is_same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-  if (!std::ranges::equal(depths_of(prober, "depth_codes", given), left, is_same))
+  if (!std::ranges::equal(depths_of(prober, "depth_codes", given_depths()).left, left, is_same))
     prober.unexplained("one scene's depths, drawn twice, differ");
   const std::size_t n = given.size();
   const C::DepthRange range = prober.learned.conventions.depth_range;
-  const Codes of_16 = codes_of(16, given, left, range), of_24 = codes_of(24, given, left, range);
+  const Codes of_16 = codes_of(16, depths, range), of_24 = codes_of(24, depths, range);
   constexpr double kFourRoundings = 0x1p-22;    // of floats below 1
   std::size_t is_float = 0, is_near_float = 0;  // multiples of 2^-16 are floats
   for (std::size_t i = 0; i < n; ++i) {
@@ -161,13 +176,13 @@ void learn_format(Prober& prober) {
     take(C::Depth::z32f, is_float, "floats");
     return prober.found(rounding, "nearest", "depths are floats");
   }
-  const auto are_codes_of = [&](int bits) { return nearly_all(codes_of(bits, given, left, range).codes, n); };
+  const auto are_codes_of = [&](int bits) { return nearly_all(codes_of(bits, depths, range).codes, n); };
   const bool are_codes = std::ranges::any_of(std::array{17, 18, 19, 20, 21, 22, 23, 24}, are_codes_of);
   if (nearly_all(is_near_float, n) && !are_codes) {
     take(C::Depth::z32f, is_near_float, "within four roundings of float, and no codes: floats");
     return prober.found(rounding, "nearest", "depths are floats");
   }
-  if (nearly_all(of_24.near, n)) return learn_16_bits(prober, given, of_24);
+  if (nearly_all(of_24.near, n)) return learn_16_bits(prober, of_24, n);
   double least = 0, most = 0;
   for (std::size_t i = 0; i < n; ++i)
     least = std::min(least, left[i] - given[i]), most = std::max(most, left[i] - given[i]);
@@ -213,18 +228,20 @@ void learn_rows(Prober& prober) {
 }
 
 void learn_depths(Prober& prober) {
+  constexpr std::size_t kFewest = 3;  // depths that tell a range
   const ConventionWords range = words_of("depth_range");
-  const std::vector<double> given = {0.125, 0.25, 0.5, 0.75, 0.875};
-  const std::vector<double> left = depths_of(prober, "depth_range", given);
+  const Depths depths = depths_of(prober, "depth_range", {0.125, 0.25, 0.5, 0.75, 0.875});
+  const auto& [given, left, lost] = depths;
+  const auto text = [](const std::vector<double>& of) { return fmt::format("{:.4g}", fmt::join(of, ", ")); };
+  if (!lost.empty()) prober.unexplained(fmt::format("rectangles at depth {} are not drawn", text(lost)));
   for (const auto found : {C::DepthRange::zero_to_one, C::DepthRange::minus_one_to_one, C::DepthRange::one_to_zero}) {
-    if (fitting(found, given, left) != given.size()) continue;
+    if (given.size() < kFewest || fitting(found, depths) != given.size()) continue;
     prober.learned.conventions.depth_range = found;
-    prober.found(range, name_of(found), fmt::format("{} of {} depths", given.size(), given.size()));
+    prober.found(range, name_of(found), fmt::format("{} of {} depths", given.size(), given.size() + lost.size()));
     return learn_format(prober);
   }
-  prober.fits_none(range,
-                   fmt::format("0.125, 0.25, 0.5, 0.75 and 0.875 are left as {:.4g}, {:.4g}, {:.4g}, {:.4g} and {:.4g}",
-                               (left)[0], (left)[1], (left)[2], (left)[3], (left)[4]));
+  prober.fits_none(range, given.empty() ? "no rectangle is drawn"
+                                        : fmt::format("depths {} are left as {}", text(given), text(left)));
   for (const char* name : {"depth_format", "depth_rounding"}) prober.open(words_of(name), "the range is open");
 }
 

@@ -328,7 +328,11 @@ void learn_grid(Prober& prober) {
                        (is_known ? fmt::format(": they scatter by {:.3f} pixel", grids.scatter()) : ""));
     if (!(grids.scatter() <= kMostScatter)) return open_all("no grid explains the edges");
   } else if (grids.differ()) {
-    prober.unexplained("window positions go by one grid in x, by another in y");
+    const auto text = [](const Grid& grid) {
+      return fmt::format("{} bits, rounded {}", bits_text(grid.bits), name_of(grid.rounding));
+    };
+    prober.unexplained(fmt::format("window positions go by one grid in x ({}), by another in y ({})",
+                                   text(*grids.columns), text(*grids.rows)));
     return open_all("edges contradict each other");
   }
   const std::size_t probes = grids.rows->probes + grids.columns->probes, all = grids.rows->all + grids.columns->all;
@@ -339,9 +343,9 @@ void learn_grid(Prober& prober) {
   if (!sample) return open_all("the picture is shifted");
   C& c = prober.learned.conventions;
   c.sample = *sample;
-  const char* doubt = !grids.explain()             ? ", which scatter about it"
-                      : !is_at_sixteenth(c.sample) ? ", no multiple of 1/16 pixel: a mistake may move the edges"
-                                                   : "";
+  const std::string doubt =
+      std::string(grids.explain() ? "" : ", which scatter about it") +
+      (is_at_sixteenth(c.sample) ? "" : ", no multiple of 1/16 pixel: a mistake may move the edges");
   prober.found(kSampleWords, sample_text(c.sample), evidence + doubt);
   if (const std::size_t outliers = grids.rows->outliers + grids.columns->outliers; grids.explain() && outliers > 0)
     prober.unexplained(fmt::format("{} of {} edges lie elsewhere: pixels are lost or added there", outliers, all));

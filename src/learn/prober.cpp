@@ -21,10 +21,10 @@ Planes Prober::draw(const Scene& scene) {
   return std::move(left.planes);
 }
 
-Plane<double> Prober::draw_depths(const Scene& scene) {
-  Plane<double> depth = draw(scene).depth;
-  if (depth.empty()) throw Unsupported("it leaves no planes.depth");
-  return depth;
+Planes Prober::draw_with_depths(const Scene& scene) {
+  Planes out = draw(scene);
+  if (out.depth.empty()) throw Unsupported("it leaves no planes.depth");
+  return out;
 }
 
 Capture Prober::captured(const Scene& probe) {

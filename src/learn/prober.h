@@ -41,8 +41,9 @@ class Prober {
   /// Colour and depth, by the conventions found so far. Throws as Renderer::capture, and Unsupported: no colour.
   Planes draw(const Scene& scene);
 
-  /// Depths of draw(). Throws Unsupported where no depth is left.
-  Plane<double> draw_depths(const Scene& scene);
+  /// draw(). Throws Unsupported where no depth is left.
+  Planes draw_with_depths(const Scene& scene);
+  Plane<double> draw_depths(const Scene& scene) { return draw_with_depths(scene).depth; }
 
   /// Adds a row: the convention's value was found. Replaces an earlier row of the convention.
   void found(const ConventionWords& words, std::string_view value, std::string evidence);

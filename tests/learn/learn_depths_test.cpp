@@ -3,6 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "tests/learn/altered_renderers.h"
 
 namespace plumbline::learn {
@@ -71,6 +74,29 @@ TEST(LearnDepths, OfInvWAreFound) {
     EXPECT_TRUE(
         std::ranges::any_of(none.unexplained, [](const std::string& line) { return line.starts_with("depth_of: "); }));
   }
+}
+
+// A clipper that drops what lies in the near half of the depths, as Direct3D's does by OpenGL's matrices.
+TEST(LearnDepths, AreThoseOfWhatIsDrawn) {
+  const auto learned_of = [](float most_lost) {
+    OfAlteredScenes renderer;
+    renderer.before = [=](Scene& scene) {
+      if (!std::holds_alternative<Orthographic>(scene.projection) || scene.meshes.empty()) return;
+      std::erase_if(scene.meshes[0].triangles, [&](const glm::uvec3& t) {
+        const std::vector<glm::vec3>& p = scene.meshes[0].positions;
+        return -std::min({p[t.x].z, p[t.y].z, p[t.z].z}) < most_lost;
+      });
+    };
+    return learn(renderer);
+  };
+  const Learned found = learned_of(0.5f);
+  EXPECT_EQ(found.conventions.depth_range, C::DepthRange::zero_to_one);
+  EXPECT_TRUE(std::ranges::count(found.conventions.unexplained, "rectangles at depth 0.125, 0.25 are not drawn"))
+      << fmt::format("{}", fmt::join(found.conventions.unexplained, "\n"));
+  EXPECT_FALSE(std::ranges::count(found.conventions.open, "depth_format"));
+  EXPECT_TRUE(std::ranges::count(found.conventions.open, "depth_rounding")) << "half of the depths tell it";
+  const Learned two = learned_of(0.6f);
+  EXPECT_TRUE(std::ranges::count(two.conventions.open, "depth_range")) << "two depths tell no range";
 }
 
 // (unsigned)(z * 16777215.0f + 0.5f): from 1/2 on the product is a whole number, and the sum the even one beside it.

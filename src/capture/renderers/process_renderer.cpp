@@ -162,8 +162,8 @@ class ProcessRenderer : public Renderer {
       throw Unsupported(fmt::format("{}: a scene made in memory cannot be handed to a program", spec_.name));
     }
     if (antialiased(scene)) {
-      throw Unsupported(
-          fmt::format("{}: an antialiased scene is drawn pass by pass, and resolved by nobody", spec_.name));
+      throw Unsupported(fmt::format(
+          "{}: plumb check judges each pass of an antialiased scene; the frame is not resolved", spec_.name));
     }
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     if (spec_.serves) start_server(request);
