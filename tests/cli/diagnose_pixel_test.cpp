@@ -30,6 +30,7 @@ TEST_F(Cli, APixelsHistoryIsByTheConventions) {
   test::write_text(at("c.json"),
                    R"({"format": "plumbline conventions", "version": 1, "sample": [0, 0], "depth_format": "z32f"})");
   const Outcome declared = plumb(by + " --conventions " + at("c.json"));
+  EXPECT_TRUE(declared.says("tie rule; what is legal: by " + at("c.json") + "\n")) << declared.text;
   EXPECT_TRUE(declared.says("exact: legal here: primitive 23,")) << declared.text;
   EXPECT_FALSE(declared.says(" = code ")) << declared.text;
 }
