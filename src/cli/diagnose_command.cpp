@@ -205,8 +205,9 @@ DiagnosisAnswer diagnose_here(Subject& subject, const Watch& watch) {
     const SceneByConventions seen(scene, candidate->info().conventions);
     history_text = report::history_text(*seen, known);
     if (!o.candidate.conventions.empty())
-      history_text += fmt::format("  fragments of osmesa and exact: by OpenGL's grid and tie rule; what is legal: by {}\n",
-                                  o.candidate.conventions);
+      history_text +=
+          fmt::format("  fragments of osmesa and exact: by OpenGL's grid and tie rule; what is legal: by {}\n",
+                      o.candidate.conventions);
     out += "\n" + history_text;
     history = report::history_json(*seen, known);
   }

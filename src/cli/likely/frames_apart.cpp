@@ -91,7 +91,9 @@ FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const Colo
       const Eye& eye = kEyes[look];
       const Plane<std::uint8_t>& legal = is_of_color(static_cast<Look>(look)) ? given.is_legal_color : given.is_legal;
       const bool is_far = from_ours.is_depth_beyond(eye);
-      if (holds(legal, i)) {
+      if (holds(given.is_wrong_in_ours, i)) {
+        counted_[i][look] = left_out;
+      } else if (holds(legal, i)) {
         if (is_far || from_ours.is_color_beyond(eye)) counted_[i][look] = passed_over;
       } else if (is_far && holds(given.is_legal_depth, i)) {
         counted_[i][look] = by_color;
@@ -113,7 +115,7 @@ Apart FramesApart::from(const ColorAndDepth& frame) const {
           there.is_depth_beyond(eye) &&
           (counted == whole || (counted == by_color && is_depth_beyond_ours(frame, i, static_cast<Look>(look))));
       const bool is_apart = is_depth_apart || there.is_color_beyond(eye, rgb_from_ours_[i]);
-      if (counted != passed_over && is_apart) ++out[look];
+      if (counted < passed_over && is_apart) ++out[look];
     }
   }
   return out;

@@ -28,6 +28,8 @@ struct GivenFrame : ColorAndDepth {
   Plane<std::uint8_t> is_legal_color{};
   /// Legality of the depth alone: where it differs from ours, the pixel counts by its colour.
   Plane<std::uint8_t> is_legal_depth{};
+  /// 1: our frame, drawn without a fault, is wrong by the conventions here: the pixel tells nothing. Empty: none.
+  Plane<std::uint8_t> is_wrong_in_ours{};
   bool has_alpha = false;  ///< alpha is known; else it is not compared
   StageSet right{};        ///< stages that are judged right, or given: their faults are no causes
   StageSet wrong{};        ///< stages that are wrong on their own input: their faults are named before others
@@ -51,7 +53,8 @@ bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes);
 /// Whether a depth is the clear depth, within a code of 16 bits.
 bool is_clear_depth(const FrameFormat& format, double z);
 
-/// Counts the pixels in which a frame differs from the given one, except those that are legal and differ from `ours`.
+/// Counts the pixels in which a frame differs from the given one, except those that are legal and differ from `ours`,
+/// and those that are wrong in `ours`.
 class FramesApart {
  public:
   /// `given` and `ours` have to outlive it.
@@ -71,7 +74,7 @@ class FramesApart {
   DepthFormat format_;
   const GivenFrame& given_;
   const ColorAndDepth& ours_;
-  enum Counted : std::uint8_t { whole, by_color, passed_over };
+  enum Counted : std::uint8_t { whole, by_color, passed_over, left_out };
   std::vector<std::array<Counted, kLooks>> counted_;  // of each pixel
   std::vector<float> rgb_from_ours_;                  // of each pixel: its distance in colour
 };

@@ -16,7 +16,10 @@
 #include <fmt/format.h>
 
 #include "capture/by_conventions.h"
+#include "capture/renderers/replayed_renderer.h"
+#include "check/judge/judge_single.h"
 #include "cli/likely/known_faults.h"
+#include "reference/exact/exact.h"
 #include "report/text/conformance.h"
 #include "scene/draw_index.h"
 
@@ -205,11 +208,64 @@ std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, 
       color.r, color.g, color.b);
 }
 
+bool tells_legality(const check::Comparison& row, Stage stage) {
+  return row.stage == stage && judges_legality(row.judge, row.stage) && was_compared(row);
+}
+
+// Plane of 1 at pixels that no row that judges legality (with `part`: no such row of that stage) finds wrong. Empty
+// where no such row judged stage `part` (without one: merge), where no row finds a pixel wrong, or where a row does not
+// list all of its pixels.
+Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict,
+                                 std::optional<Stage> part = {}) {
+  const auto tells = [&](const check::Comparison& row) { return tells_legality(row, part.value_or(Stage::merge)); };
+  if (std::ranges::none_of(verdict.comparisons, tells)) return {};
+  Plane<std::uint8_t> out(planes.color.width(), planes.color.height(), 1);
+  bool any_wrong = false;
+  for (const check::Comparison& row : verdict.comparisons) {
+    if (row.outcome != check::Outcome::different || !judges_legality(row.judge, row.stage)) continue;
+    if (row.measurement.differing_at.size() < row.measurement.differing) return {};
+    any_wrong = any_wrong || !row.measurement.differing_at.empty();
+    if (part && !tells(row)) continue;
+    for (const glm::ivec2 p : row.measurement.differing_at) out(p.x, p.y) = 0;
+  }
+  return any_wrong ? out : Plane<std::uint8_t>();
+}
+
+// Whether corners, samples and ties are plumbline's.
+bool covers_as_ours(const Conventions& c) {
+  const Conventions ours;
+  return c.sample == ours.sample && c.subpixel_bits == ours.subpixel_bits &&
+         c.subpixel_rounding == ours.subpixel_rounding && c.attribute_corners == ours.attribute_corners &&
+         (c.tie_rule == ours.tie_rule || c.tie_rule == Conventions::TieRule::left_bottom);
+}
+
+// Pixels at which our frame without a fault, drawn by the conventions as far as faults can, is wrong by them. Empty for
+// conventions that cover as ours, and where more than a twentieth of the frame is: edges are wrong by no more.
+Plane<std::uint8_t> wrong_pixels_of_ours(const Scene& scene, const Conventions& conventions,
+                                         const ColorAndDepth& ours) {
+  if (covers_as_ours(conventions)) return {};
+  Conventions drawn = conventions;
+  drawn.rows = Conventions::Rows::from_bottom, drawn.depth_range = Conventions::DepthRange::zero_to_one;
+  Capture frame;
+  frame.width = scene.frame.width, frame.height = scene.frame.height;
+  frame.planes.color = ours.color, frame.planes.depth = ours.depth;
+  const Planes planes = frame.planes;
+  const auto replayed = make_replayed_renderer(std::move(frame), scene, "plumbline", drawn);
+  const auto exact = exact::make_exact();
+  const check::Reference references[] = {{"exact", exact.get()}};
+  Plane<std::uint8_t> out = legal_pixels(planes, check::judge_single(scene, *replayed, references));
+  for (std::uint8_t& pixel : out.values()) pixel = pixel == 0 ? 1 : 0;
+  const auto wrong = static_cast<std::size_t>(std::ranges::count(out.values(), std::uint8_t{1}));
+  return 20 * wrong > out.size() ? Plane<std::uint8_t>() : out;
+}
+
 }  // namespace
 
-Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
+Lookalikes lookalikes(const Scene& scene, const GivenFrame& frame) {
+  GivenFrame given = frame;
   const SceneByConventions seen(scene, given.conventions);
   const ColorAndDepth right = draw_with({}, *seen, given.conventions);
+  given.is_wrong_in_ours = wrong_pixels_of_ours(scene, given.conventions, right);
   const Trial trial(*seen, given, right);
   Apart apart = trial.apart(right);
   if (!given.has_alpha) apart[kCoarseByAlpha] = 0;
@@ -260,29 +316,6 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
 }
 
 namespace {
-
-bool tells_legality(const check::Comparison& row, Stage stage) {
-  return row.stage == stage && judges_legality(row.judge, row.stage) && was_compared(row);
-}
-
-// Plane of 1 at pixels that no row that judges legality (with `part`: no such row of that stage) finds wrong. Empty
-// where no such row judged stage `part` (without one: merge), where no row finds a pixel wrong, or where a row does not
-// list all of its pixels.
-Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict,
-                                 std::optional<Stage> part = {}) {
-  const auto tells = [&](const check::Comparison& row) { return tells_legality(row, part.value_or(Stage::merge)); };
-  if (std::ranges::none_of(verdict.comparisons, tells)) return {};
-  Plane<std::uint8_t> out(planes.color.width(), planes.color.height(), 1);
-  bool any_wrong = false;
-  for (const check::Comparison& row : verdict.comparisons) {
-    if (row.outcome != check::Outcome::different || !judges_legality(row.judge, row.stage)) continue;
-    if (row.measurement.differing_at.size() < row.measurement.differing) return {};
-    any_wrong = any_wrong || !row.measurement.differing_at.empty();
-    if (part && !tells(row)) continue;
-    for (const glm::ivec2 p : row.measurement.differing_at) out(p.x, p.y) = 0;
-  }
-  return any_wrong ? out : Plane<std::uint8_t>();
-}
 
 // Whether records alone are wrong: rows that judge legality judged the frame's colours, and none finds it wrong.
 bool is_wrong_by_records_alone(const check::SceneVerdict& verdict) {

@@ -87,6 +87,17 @@ TEST(FramesApart, PassesOverLegalPixelsThatDifferFromOurs) {
 }
 
 // A legal depth that differs from ours: the pixel counts by its colour, but for a frame that moves the depth elsewhere.
+// Neither for a frame nor against it.
+TEST(FramesApart, LeavesOutPixelsThatAreWrongInOurs) {
+  GivenFrame given = pixel({1, 0, 0, 1}, 0.25);
+  const FramesApart::Legal none = FramesApart(DepthFormat::z16, given, grey()).legal(grey(0.75));
+  given.is_wrong_in_ours = {1, 1, 1};
+  EXPECT_THAT(apart(given, grey()), ElementsAre(0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(FramesApart(DepthFormat::z16, given, grey()).legal(grey(0.75)).against, none.against);
+  given.is_wrong_in_ours = {1, 1, 0};
+  EXPECT_THAT(apart(given, grey()), ElementsAre(1, 1, 1, 1, 1, 1, 1));
+}
+
 TEST(FramesApart, CountsPixelsOfLegalDepthsByTheirColor) {
   const GivenFrame ours = grey();
   GivenFrame given = pixel({1, 1, 1, 0.5f}, 0.5 + 3 * kStep);

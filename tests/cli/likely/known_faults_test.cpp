@@ -141,6 +141,29 @@ TEST(KnownFaults, AreRoundingsThatConventionsDeclareAndTheRendererDoesNotHave) {
   }
 }
 
+// A grid of 1/16 pixel, rounded down, which no fault draws: pixels that it decides are wrong in our frame, and tell
+// nothing. A fault is named by the others.
+TEST(KnownFaults, AreSeenWhereOurFrameIsRightByTheConventions) {
+  const Scene scene = suite_scene("coverage/shared_edges");
+  Scene on_grid = scene;  // model space is the window
+  for (Mesh& mesh : on_grid.meshes) {
+    for (glm::vec3& p : mesh.positions) p.x = std::floor(16 * p.x) / 16, p.y = std::floor(16 * p.y) / 16;
+  }
+  C declared;
+  declared.subpixel_bits = 4, declared.subpixel_rounding = C::Rounding::down,
+  declared.tie_rule = C::TieRule::left_bottom;
+  const auto frame = [&](const char* fault) {
+    const std::vector<KnownFault> known = known_faults(on_grid, {});
+    const KnownFault* drawn = find(known, fault);
+    return drawn == nullptr ? draw_with({}, on_grid, {}) : draw_with(std::vector{drawn}, on_grid, {});
+  };
+  const std::size_t by_default = lookalikes(scene, {frame(""), {}, {}}).apart,
+                    by_grid = lookalikes(scene, {frame(""), declared, {}}).apart;
+  EXPECT_GT(by_default, 10u);
+  EXPECT_LT(by_grid, by_default / 2);
+  EXPECT_EQ(lookalikes(scene, {frame("file.mirrored"), declared, {}}).likely, "file (fault file.mirrored)");
+}
+
 // Samples at pixels' corners: borders of pixels, moved by half a pixel, are centres.
 TEST(KnownFaults, OfWholePixelsAreDeclaredWhereverPixelsAreSampled) {
   C declared;
