@@ -91,7 +91,7 @@ double error_of_pieces(const Projected& scene, const Triangle& t, const Near& ne
 
 double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, const PieceAltitudes& altitudes) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
-  if (arithmetic == Conventions::DepthArithmetic::in_double) return 0;
+  if (arithmetic == Conventions::DepthArithmetic::in_double && !scene.z_view_of_zero) return 0;
   const glm::dvec2 p = glm::dvec2(d) + 0.5 * glm::dvec2(scene.width, scene.height);
   const double slope = range_scale(t) * glm::length(glm::dvec2(t.z_plane));
   const std::optional<double> from = z_of_zero(scene, t);

@@ -3,9 +3,9 @@
 // Declared grid and tie rule (settles_ties()): coverage is open only where a corner may snap to several grid points. It
 // may where a position at which the rounding changes (nearest: the middle between two grid points; down, up: a grid
 // point) is within corner_displacement() of the corner in double (down, up: plus kOfFixedPoint). Coverage is known
-// where all combinations of the corners' grid points agree; the tie rule settles edge functions that are 0. All edges
-// own their samples, or none, in renderers that test e >= 0 or e > 0 in the arithmetic they declare: in float, e of a
-// slanted edge may be rounded to either side of 0.
+// where all combinations of the corners' grid points agree; the tie rule settles edge functions that are 0. Rules
+// inclusive and exclusive are signs of e. Where float computes e, a sample on an edge is open: e may be rounded to
+// either side of 0. Differences of coordinates are exact in float on level and on upright edges, whose products are 0.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,30 +21,27 @@ namespace {
 
 using C = Conventions;
 
-bool covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sample, C::TieRule rule) {
+// Whether float decides who owns a sample on an edge of this direction.
+bool rounds_ties(const C& c, glm::dvec2 along) {
+  using enum C::DepthArithmetic;
+  const bool is_by_sign = c.tie_rule == C::TieRule::inclusive || c.tie_rule == C::TieRule::exclusive;
+  if (!is_by_sign || c.depth_arithmetic == in_double) return false;
+  const bool by_differences = c.depth_arithmetic == in_float || c.depth_arithmetic == in_float_stepped;
+  return !by_differences || (along.x != 0 && along.y != 0);
+}
+
+// nullopt: float decides.
+std::optional<bool> covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sample, const C& c) {
+  std::optional<bool> out = true;
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec2 along = sign * (corners[(i + 1) % 3] - corners[i]), from = sample - corners[i];
     const glm::dvec2 inward(-along.y, along.x);
     const double e = glm::dot(inward, from);
-    if (e < 0 || (e == 0 && !owns_ties(rule, inward))) return false;
+    const bool is_open = e == 0 && rounds_ties(c, along);
+    if (e < 0 || (e == 0 && !is_open && !owns_ties(c.tie_rule, inward))) return false;
+    if (is_open) out = std::nullopt;
   }
-  return true;
-}
-
-// Whether an edge of the triangle that is neither level, upright nor diagonal passes through the sample.
-bool is_on_slanted_edge(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sample) {
-  const auto passes = [&](std::size_t i) {
-    const glm::dvec2 along = corners[(i + 1) % 3] - corners[i], from = sample - corners[i];
-    const bool is_slanted = along.x != 0 && along.y != 0 && std::abs(along.x) != std::abs(along.y);
-    return is_slanted && along.x * from.y == along.y * from.x;
-  };
-  return covers(corners, sign, sample, C::TieRule::inclusive) && (passes(0) || passes(1) || passes(2));
-}
-
-// Whether the arithmetic of edges decides ties.
-bool rounds_ties(const C& c) {
-  const bool is_by_sign = c.tie_rule == C::TieRule::inclusive || c.tie_rule == C::TieRule::exclusive;
-  return is_by_sign && c.depth_arithmetic != C::DepthArithmetic::in_double;
+  return out;
 }
 
 // Grid points of a triangle's corner. Those of a copy on the grid are not snapped again: down or up, the rounding of
@@ -74,10 +71,8 @@ std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, in
   for (std::size_t n = 0; n < points[0].count * points[1].count * points[2].count; ++n) {
     const std::size_t i = n % points[0].count, k = n / points[0].count % points[1].count,
                       l = n / points[0].count / points[1].count;
-    const std::array corners = {points[0].at[i], points[1].at[k], points[2].at[l]};
-    if (rounds_ties(c) && is_on_slanted_edge(corners, t.sign, sample)) return std::nullopt;
-    const bool covered = covers(corners, t.sign, sample, c.tie_rule);
-    if (known && *known != covered) return std::nullopt;
+    const auto covered = covers({points[0].at[i], points[1].at[k], points[2].at[l]}, t.sign, sample, c);
+    if (!covered || (known && *known != *covered)) return std::nullopt;
     known = covered;
   }
   return known;

@@ -144,11 +144,11 @@ std::string text_of(const Results& results) {
   if (!results.unable.empty())
     out += fmt::format("nothing could be judged: {}\n{}", unable_scenes(results), unable_lines(results.unable));
   if (2 * unable_scenes(results) > results.scenes() && !results.judged.contains(Generator::flat)) {
-    out += "most scenes ask for more than is drawn; ";
-    if (!results.judged.contains(Generator::plain)) out += "--generator plain writes opaque triangles alone,\n";
+    out += "most scenes ask for more than is drawn; other generators ask for less:\n";
+    if (!results.judged.contains(Generator::plain)) out += "--generator plain: opaque triangles alone\n";
     if (!results.judged.contains(Generator::inside))
-      out += "--generator inside opaque triangles in perspective that no plane cuts,\n";
-    out += "--generator flat triangles of one colour a draw, without a depth test\n";
+      out += "--generator inside: opaque triangles in perspective that no plane cuts\n";
+    out += "--generator flat: triangles of one colour a draw, without a depth test\n";
   }
   out += states_text(results);
   if (!results.found.empty())

@@ -156,20 +156,23 @@ double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::d
   return or_infinite(std::max({of_sum(0), of_sum(corners[0].z), of_sum(corners[1].z), of_sum(corners[2].z)}));
 }
 
+double error_of_inv_w(const WindowCorners& corners, std::optional<double> z_of_zero) {
+  if (!z_of_zero) return 0;
+  double most = 0;
+  for (const glm::dvec3& corner : corners) most = std::max(most, std::abs(corner.z - *z_of_zero));
+  return kU * (std::abs(*z_of_zero) + 4 * most);
+}
+
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
                    glm::dvec2 frame, std::optional<double> z_of_zero) {
   using enum Conventions::DepthArithmetic;
-  if (arithmetic == in_double) return 0;
   if (z_of_zero) {
     WindowCorners from = corners;
-    double most = 0;
-    for (glm::dvec3& corner : from) {
-      corner.z -= *z_of_zero;
-      most = std::max(most, std::abs(corner.z));
-    }
-    const double by_inv_w = depth_error(arithmetic, from, p, frame) + kU * (std::abs(*z_of_zero) + 4 * most);
+    for (glm::dvec3& corner : from) corner.z -= *z_of_zero;
+    const double by_inv_w = depth_error(arithmetic, from, p, frame) + error_of_inv_w(corners, z_of_zero);
     return std::max(by_inv_w, depth_error(arithmetic, corners, p, frame));
   }
+  if (arithmetic == in_double) return 0;
   double out = std::max(error_by_edge_functions(corners, p), error_by_plane(corners, p));
   if (is_from_origin(arithmetic)) out = std::max(out, error_by_edge_equations(corners, p));
   if (steps_depths(arithmetic)) out += error_by_steps(arithmetic, corners, p, frame);
@@ -201,10 +204,11 @@ double attribute_error(double shares, double most) {
 double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double altitude, double slope, glm::dvec2 window,
                              glm::dvec2 frame, std::optional<double> z_of_zero) {
   using enum Conventions::DepthArithmetic;
-  if (arithmetic == in_double) return 0;
-  if (!(altitude > 0)) return kInfinity;
   const double from = z_of_zero.value_or(0), most = std::max({1.0, std::abs(from), std::abs(1 - from)}),
-               diagonal = glm::length(window), thin = diagonal / altitude,
+               of_inv_w = z_of_zero ? kU * (std::abs(from) + 4 * most) : 0;
+  if (arithmetic == in_double) return of_inv_w;
+  if (!(altitude > 0)) return kInfinity;
+  const double diagonal = glm::length(window), thin = diagonal / altitude,
                rise = std::min(slope, 2 / altitude) * diagonal;
   const double by_edges = 4 * most * (3 * 2 * thin + 2 * thin + 1),
                by_plane = 4 * (most + 2 * rise + 3 * std::sqrt(2.0) * rise * thin),
@@ -219,7 +223,7 @@ double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double alt
                steps = arithmetic == in_float_stepped_edges ? by_stepped_edges : by_steps,
                in_differences = std::max(by_edges, by_plane),
                of_depth = is_from_origin(arithmetic) ? std::max(in_differences, by_equations) : in_differences;
-  return kU * (of_depth + steps + (z_of_zero ? 1 + std::abs(from) + 4 * most : 1));
+  return kU * (of_depth + steps + 1) + of_inv_w;
 }
 
 }  // namespace plumbline

@@ -49,9 +49,9 @@ struct WindowBox {
 /// - in_float_stepped: x is added up from row to row of the frame, two roundings a row (slope, sum) of at most the
 ///   box's largest |x|, two more at each end.
 /// - in_float_stepped_edges: the edge function is added up over the box's part in the frame, where it is at most that
-///   part's diagonal times the edge's length. Divided by that length, its errors are: a rounding of that size and one of
-///   the step itself for each step, and 4 u of the terms at the part's corner, which the box's own diagonal bounds. The
-///   displacement may point in any direction.
+///   part's diagonal times the edge's length. Divided by that length, its errors are: for each step a rounding of that
+///   size and one of the step itself, and 4 u of the terms at the part's corner, which the box's own diagonal bounds.
+///   The displacement may point in any direction.
 /// - Otherwise 0.
 glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, const WindowBox& box, glm::dvec2 frame);
 
@@ -77,10 +77,14 @@ double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::d
 ///
 /// `z_of_zero`: c, the window z where 1/w is 0, of a renderer that interpolates 1/w and computes window z as c - k / w
 /// (without perspective: c + k d, d the distance before the eye); nullopt: it interpolates window z. Its errors, the
-/// larger of those of window z and these: in place of z_i, |z_i - c| counts. A corner's 1/w, k, their product, and the
-/// reciprocal in a buffer of w add a rounding each: 4 u of the largest |z_i - c|; c adds u of |c|.
+/// larger of those of window z and these: in place of z_i, |z_i - c| counts, and error_of_inv_w() is added.
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
                    glm::dvec2 frame, std::optional<double> z_of_zero = {});
+
+/// Error that a buffer of 1/w or w in float, and window z that is made of it, add to a depth [window z], whatever the
+/// arithmetic: a corner's 1/w, k, their product and the reciprocal of w add a rounding each, 4 u of the largest
+/// |z_i - c|; c adds u of |c|. nullopt: 0.
+double error_of_inv_w(const WindowCorners& corners, std::optional<double> z_of_zero);
 
 /// Sum of the errors of the three window barycentrics at p: each barycentric is bounded as a depth that is 1 at one
 /// corner and 0 at the others.

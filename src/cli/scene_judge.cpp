@@ -37,8 +37,8 @@ std::optional<Planes> drawn_alone(ProgramArgument program, const Scene& scene) {
   }
 }
 
-// Causes that the records of the first stage that is wrong by itself show (check/diagnose/known_causes.h); none where no
-// row judges records, or the scene is not is_small().
+// Causes that the records of the first stage that is wrong by itself show (check/diagnose/known_causes.h). None where
+// no row judges records, or the scene is not is_small().
 std::vector<std::string> causes_by_records(const Scene& scene, Renderer& candidate, const check::SceneVerdict& verdict,
                                            std::span<const check::Reference> references) {
   const auto is_wrong_by_itself = [](const check::Comparison& row) {

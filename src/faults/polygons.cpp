@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -174,7 +175,7 @@ constexpr auto kHalfAPixelOff = [](const pipeline::WindowVertex& v) { return v.s
 enum class To { down, up, nearest };
 template <To way>
 float whole(float p) {
-  return way == To::down ? std::floor(p) : way == To::up ? std::ceil(p) : std::nearbyint(p);
+  return way == To::up ? std::ceil(p) : std::floor(way == To::down ? p : p + 0.5f);
 }
 
 // Corners in whole pixels (`centre`: plus a half), for coverage and for interpolation.

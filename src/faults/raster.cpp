@@ -59,11 +59,14 @@ PixelList box_filled(const Triangle& t, const PixelBounds& box) {
   return pipeline::covered_pixels({}, pipeline::pixel_bounds(t), box);
 }
 
-// Coverage by the edges but the one of that number.
+// Coverage by the edges but the one of that number, from corner to corner in the order given. A window triangle begins
+// with the second corner (stages.h, 4); edges_of() goes round back faces the other way.
 template <int number>
 PixelList edge_missing(const Triangle& t, const PixelBounds& box) {
+  constexpr int kOfFront = (number + 2) % 3;
+  const int left_out = t.front ? kOfFront : 2 - kOfFront;
   pipeline::Edges edges = pipeline::edges_of(t);
-  edges.at_origin[number] = edges.step_x[number] = edges.step_y[number] = 0;
+  edges.at_origin[left_out] = edges.step_x[left_out] = edges.step_y[left_out] = 0;
   return pipeline::covered_pixels(edges, pipeline::pixel_bounds(t), box);
 }
 
@@ -272,11 +275,11 @@ constexpr std::array kRaster = {
                 put<&Stages::coverage, triangles_by<box_short_by<1, 1>>>),
     stage_fault("coverage.box_filled", "the whole bounding box of a triangle is covered",
                 put<&Stages::coverage, triangles_by<box_filled>>),
-    stage_fault("coverage.first_edge_missing", "the first edge of a triangle is not tested",
+    stage_fault("coverage.first_edge_missing", "the edge from the first corner to the second is not tested",
                 put<&Stages::coverage, triangles_by<edge_missing<0>>>),
-    stage_fault("coverage.second_edge_missing", "the second edge of a triangle is not tested",
+    stage_fault("coverage.second_edge_missing", "the edge from the second corner to the third is not tested",
                 put<&Stages::coverage, triangles_by<edge_missing<1>>>),
-    stage_fault("coverage.third_edge_missing", "the third edge of a triangle is not tested",
+    stage_fault("coverage.third_edge_missing", "the edge from the third corner to the first is not tested",
                 put<&Stages::coverage, triangles_by<edge_missing<2>>>),
     stage_fault("coverage.last_column_lost", "the bounding box lacks its last column",
                 put<&Stages::coverage, triangles_by<box_short_by<1, 0>>>),

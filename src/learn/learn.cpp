@@ -110,11 +110,14 @@ Learned learn(Renderer& renderer) {
 }
 
 std::string learned_text(const Learned& learned) {
-  std::size_t width = 14;
-  for (const LearnedRow& row : learned.rows) width = std::max(width, row.value.size());
-  std::string out = fmt::format("{:<18} {:<{}} {}\n", "convention", "found", width, "evidence");
+  std::size_t of_names = 18, of_values = 14;
+  for (const LearnedRow& row : learned.rows) {
+    of_names = std::max(of_names, row.name.size());
+    of_values = std::max(of_values, row.value.size());
+  }
+  std::string out = fmt::format("{:<{}} {:<{}} {}\n", "convention", of_names, "found", of_values, "evidence");
   for (const LearnedRow& row : learned.rows)
-    out += fmt::format("{:<18} {:<{}} {}\n", row.name, row.value, width, row.evidence);
+    out += fmt::format("{:<{}} {:<{}} {}\n", row.name, of_names, row.value, of_values, row.evidence);
   for (const std::string& line : not_accepted(learned.conventions)) out += fmt::format("{}\n", line);
   return out;
 }

@@ -48,15 +48,16 @@ std::vector<SlopedTriangle> long_and_low() {
   return {
       {{glm::dvec3(1, 1, 9973 / 65536.0), glm::dvec3(2001, 3, 60013 / 65536.0), glm::dvec3(4, 7, 19013 / 65536.0)}}};
 }
+double on_grid(double p, int bits) { return std::ldexp(std::nearbyint(std::ldexp(p, bits)), -bits); }
+
 // 16 small triangles, 5 pixels wide, near (500, 500), nearly level, so that planes lose little there.
 std::vector<SlopedTriangle> small_and_far(int grid_bits) {
-  const auto on_grid = [&](double p) { return std::ldexp(std::nearbyint(std::ldexp(p, grid_bits)), -grid_bits); };
   std::vector<SlopedTriangle> out;
   for (int x = 480; x < 504; x += 6) {
     for (int y = 480; y < 504; y += 6) {
       const double z = 20011 + (61 * x + 977 * y) % 30000;
       const auto corner = [&](double right, double up, double depth) {
-        return glm::dvec3(on_grid(x + right), on_grid(y + up), (z + depth) / 65536);
+        return glm::dvec3(on_grid(x + right, grid_bits), on_grid(y + up, grid_bits), (z + depth) / 65536);
       };
       out.push_back({{corner(0.1934, 0.3047, 0), corner(4.9385, 1.1943, 37), corner(1.4404, 3.8115, 83)}});
     }
@@ -68,8 +69,7 @@ std::vector<SlopedTriangle> small_and_far(int grid_bits) {
 // beside it, and its area is small.
 std::vector<SlopedTriangle> long_and_aslant(int grid_bits) {
   const auto at = [&](double x, double y, double code) {
-    const auto on_grid = [&](double p) { return std::ldexp(std::nearbyint(std::ldexp(p, grid_bits)), -grid_bits); };
-    return glm::dvec3(on_grid(x), on_grid(y), code / 65536);
+    return glm::dvec3(on_grid(x, grid_bits), on_grid(y, grid_bits), code / 65536);
   };
   return {{{at(3.1934, 5.3047, 30011), at(503.9385, 489.1943, 30048), at(251.4404, 248.8115, 30094)}}};
 }

@@ -16,8 +16,8 @@ std::string declared(const std::string& more) {
 TEST_F(Cli, LearnFindsAndWritesAProgramsConventions) {
   const Outcome run = plumb("learn" + kLearnedProgram + " -o " + at("c.json") + " --pictures " + at("pictures"));
   EXPECT_EQ(run.code, 0) << run.text;
-  EXPECT_TRUE(run.says("subpixel_bits      8")) << run.text;
-  EXPECT_TRUE(run.says("blending           open           blend")) << run.text;
+  EXPECT_TRUE(run.says("subpixel_bits       8")) << run.text;
+  EXPECT_TRUE(run.says("blending            open           blend")) << run.text;
   EXPECT_NE(test::text_of(at("c.json")).find("\"tie_rule\": \"left_bottom\""), std::string::npos);
   EXPECT_TRUE(fs::exists(at("pictures/grid_x.png")));
   const Outcome by = plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json"));

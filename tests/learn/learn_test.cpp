@@ -22,7 +22,7 @@ TEST(Learn, OurRendererDrawsByTheDialect) {
   EXPECT_TRUE(found.conventions.unexplained.empty());
   EXPECT_TRUE(mistaken(found.conventions).empty());
   const std::string text = learned_text(found);
-  EXPECT_NE(text.find("subpixel_bits      8"), std::string::npos) << text;
+  EXPECT_NE(text.find("subpixel_bits       8"), std::string::npos) << text;
   EXPECT_EQ(text.find("mistaken"), std::string::npos) << text;
 }
 

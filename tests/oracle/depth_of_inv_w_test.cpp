@@ -84,7 +84,8 @@ TEST(DepthOfInvW, IsDeclaredForRecords) {
   EXPECT_GT(differing(kStepOfInvW, declared(in_float, C::DepthOf::z)), 0u);
   EXPECT_EQ(differing(kStepOfInvW, declared(in_float, C::DepthOf::inv_w)), 0u);
   EXPECT_GT(differing(100 * kStepOfInvW, declared(in_float, C::DepthOf::inv_w)), 0u);
-  EXPECT_GT(differing(kStepOfInvW, declared(in_double, C::DepthOf::inv_w)), 0u);
+  EXPECT_EQ(differing(kStepOfInvW, declared(in_double, C::DepthOf::inv_w)), 0u) << "kept in a float";
+  EXPECT_GT(differing(100 * kStepOfInvW, declared(in_double, C::DepthOf::inv_w)), 0u);
 }
 
 }  // namespace

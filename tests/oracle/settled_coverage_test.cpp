@@ -48,8 +48,9 @@ TEST(SettledCoverage, ADeclaredTieRuleSettlesSamplesOnEdges) {
   }
 }
 
-// An edge of slope 3/2 through samples, and the straight ones: float rounds the slanted edge's function alone.
-TEST(SettledCoverage, FloatDecidesTiesOfSlantedEdgesByTheirSign) {
+// An edge of slope 3/2 through samples, and straight ones: by differences, float rounds the slanted edge's function
+// alone; by edge equations, all.
+TEST(SettledCoverage, FloatDecidesTiesByTheSignOfAnEdgeFunction) {
   const Scene scene = window_scene({{glm::vec3(4.5f, 4.5f, 0.5f), {20.5f, 28.5f, 0.5f}, {4.5f, 28.5f, 0.5f}}});
   using enum C::TieRule;
   for (const C::TieRule rule : {inclusive, exclusive, left_bottom}) {
@@ -61,6 +62,11 @@ TEST(SettledCoverage, FloatDecidesTiesOfSlantedEdgesByTheirSign) {
     EXPECT_EQ(by.certain(8, 28), by_double.certain(8, 28)) << name_of(rule) << ": level";
     EXPECT_EQ(by.certain(6, 7) != by.possible(6, 7), rule != left_bottom) << name_of(rule);
     EXPECT_EQ(by.certain(2, 1), by.possible(2, 1)) << name_of(rule) << ": beyond the edge's end";
+    EXPECT_EQ(by.certain(20, 28) != by.possible(20, 28), rule == inclusive) << "a level edge leaves out the corner";
+    in_float.depth_arithmetic = C::DepthArithmetic::in_float_from_origin;
+    const Legal by_equations = legal(scene, in_float);
+    EXPECT_EQ(by_equations.certain(4, 16) != by_equations.possible(4, 16), rule != left_bottom) << name_of(rule);
+    EXPECT_EQ(by_equations.certain(8, 20), 1u) << "inside";
   }
 }
 

@@ -31,7 +31,7 @@ struct View {
   double aspect = 1;                  ///< the frame's width by its height, in the world
   double near = 1, far = 100;         ///< distances of the planes that clip
   bool of_pixels = false;             ///< world units are pixels: x and y are window coordinates, exactly
-  bool clamps = false;                ///< at() moves points inside the view volume, by a hundredth or more of its size
+  bool clamps = false;  ///< at() moves points into the view volume, a hundredth of its size or more from its sides
 
   /// World point that is seen at (x, y) [pixels from the frame's lower left corner], at this distance from the eye.
   Point at(double x, double y, double distance) const;

@@ -24,7 +24,7 @@ constexpr std::string_view kBehindEye =
 const Records<double> kNone;
 const std::vector<Vec4<double>> kNowhere;
 
-// Difference of what of() takes from both sides' records, per vertex; `granted` where the reference has no such records.
+// Differences, per vertex, of what of() takes from a record; `granted` where the reference has no such records.
 template <class Record>
 std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b, auto of,
                                         double granted) {

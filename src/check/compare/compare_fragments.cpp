@@ -224,12 +224,15 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
   // window's origin.
   const auto float_error = [&](const WindowTriangle<double>& t, const Covered& c) {
     const bool is_declared = conventions.depth_arithmetic != Conventions::DepthArithmetic::in_double;
-    if (from_origin == 0 || (!is_declared && scene.frame.depth != DepthFormat::z32f)) return 0.0;
-    const double by_plane = from_origin * u * (bounds_from_origin(t, c.x, c.y).depth + offsets.of(t));
-    if (!is_declared || t.corners < 3) return by_plane;
+    if (from_origin == 0) return 0.0;
     const WindowCorners corners = {t.v[0].p_win, t.v[1].p_win, t.v[2].p_win};
-    return std::max(by_plane + u, depth_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}, frame,
-                                              z_of_zero.in_draw_of(t.primitive)));
+    const std::optional<double> of_zero = z_of_zero.in_draw_of(t.primitive);
+    const double of_inv_w = error_of_inv_w(corners, of_zero);
+    if (!is_declared && scene.frame.depth != DepthFormat::z32f) return of_inv_w;
+    const double by_plane = from_origin * u * (bounds_from_origin(t, c.x, c.y).depth + offsets.of(t));
+    if (!is_declared || t.corners < 3) return by_plane + of_inv_w;
+    return std::max(by_plane + u,
+                    depth_error(conventions.depth_arithmetic, corners, {c.x + 0.5, c.y + 0.5}, frame, of_zero));
   };
   return each_fragment(
       "depths", "step", candidate, candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {

@@ -68,7 +68,8 @@ void each_covered(std::span<const Covered> a, std::span<const Covered> b, auto v
   for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
     const bool in_a = i < a.size() && (j == b.size() || draw_order(a[i]) <= draw_order(b[j]));
     const bool in_b = j < b.size() && (i == a.size() || draw_order(b[j]) <= draw_order(a[i]));
-    visit(in_a ? a[i++] : b[j], in_a, in_b);
+    visit(in_a ? a[i] : b[j], in_a, in_b);
+    i += in_a ? 1 : 0;
     j += in_b ? 1 : 0;
   }
 }
@@ -78,8 +79,8 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// compare_covered() for a candidate whose tie rule or grid is not the dialect's. An extra or missing fragment is
 /// ambiguous where the sample lies within d [pixels] of an edge of the candidate's triangle. d is the sum of the edge's
 /// displacements by the declared grid (no grid: by rounding in float), by exact's snapping to 1/256 pixel, and by
-/// stepping in float where depth_arithmetic declares stepping. On a declared grid of whole to 1/256 pixels the first two
-/// are 0, unless has_corner_between_places(); float edge functions reach 8 u of the largest coordinates, unless
+/// stepping in float where depth_arithmetic declares stepping. On a declared grid of whole to 1/256 pixels the first
+/// two are 0, unless has_corner_between_places(); float edge functions reach 8 u of the largest coordinates, unless
 /// depth_arithmetic is in_double.
 /// A fragment differs nevertheless where the sample lies on an edge that two triangles share (shared_edges.h), near no
 /// other edge of these, and is not in exactly one of the two (inclusive: nor in both; exclusive: nor in neither).
@@ -122,7 +123,7 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
                                glm::dvec2 frame = kNoSides);
 /// Compares shaded colours. Plain draws: bit for bit (as floats), but for `copies` u of the value. Other draws:
 /// `factor` u of each step's magnitude (shade_bounds.h). With `copies` above 0, in a frame of codes, colours may be
-/// clamped to [0, 1], and a difference of u / 2 codes is allowed: half a float's step beside 1/2, where codes are rounded.
+/// clamped to [0, 1], and may be off by u / 2 codes, which rounding to codes in float loses beside 1/2 code.
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, double copies = 0);
 /// Compares a varying that is not lit at the vertices, bit for bit (as floats), as stage light only copies it.

@@ -32,7 +32,8 @@ struct Evidence {
 std::size_t pixels_explained(const Evidence& evidence);
 
 /// Text lines: the record's place, input, output, expected output (of a judge of legal answers: the nearest legal
-/// value) and the difference; also the triangle and its corners where the record belongs to a triangle.
+/// value) and the difference; also the triangle and its corners where the record belongs to a triangle
+/// (worst_record.cpp).
 std::vector<std::string> worst_record(const Evidence& evidence, const JudgeId& judge, const Measurement& measurement);
 
 }  // namespace plumbline::check

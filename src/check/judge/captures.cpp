@@ -1,6 +1,7 @@
 #include "check/judge/captures.h"
 
 #include <algorithm>
+#include <exception>
 #include <numeric>
 
 #include "check/judge/stage_copy.h"

@@ -38,8 +38,8 @@ struct ReferenceCaptures {
 ReferenceCaptures capture_references(const Scene& scene, std::span<const Reference> references, bool legal,
                                      const Conventions& conventions);
 
-/// Legal answers at the pixels where a reference has another winner, count or sum of fragments. Empty where none has, or
-/// the oracle fails.
+/// Legal answers at the pixels where a reference has another winner, count or sum of fragments. Empty where none has,
+/// or the oracle fails.
 Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
                         const Conventions& conventions);
 

@@ -38,7 +38,7 @@ std::vector<Edge> split_at(std::span<const ClipVertex<double>> vertices, std::sp
     std::vector<std::pair<double, std::size_t>> on;  // share of the way, vertex
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       if (i == edge.from || i == edge.to) continue;
-      const auto [share, distance] = along_line(vertices[i], vertices[edge.from], vertices[edge.to], corners);
+      const auto [share, distance] = nearest_on_line(vertices[i], vertices[edge.from], vertices[edge.to], corners);
       if (share > 0 && share < 1 && distance <= tolerance) on.emplace_back(share, i);
     }
     std::ranges::sort(on);

@@ -171,8 +171,8 @@ double distance_from_edge(const ClipVertex<double>& v, const Corners& c, std::si
   return from_line(place_of(v, c), corner_of(c, i), corner_of(c, (i + 1) % 3)).distance;
 }
 
-AlongLine along_line(const ClipVertex<double>& v, const ClipVertex<double>& a, const ClipVertex<double>& b,
-                     const Corners& c) {
+AlongLine nearest_on_line(const ClipVertex<double>& v, const ClipVertex<double>& a, const ClipVertex<double>& b,
+                          const Corners& c) {
   return from_line(place_of(v, c), place_of(a, c), place_of(b, c));
 }
 

@@ -1,6 +1,6 @@
 // Legal outcomes of stage 3 (clip) for one primitive, from its corners (records of earlier stages): any polygon between
-// the primitive cut by clip planes moved inwards and cut by planes moved outwards, both by the rounding error.
-// And distances of clipped vertices from each other and from the triangle that they were cut from.
+// the primitive cut by clip planes moved inwards and cut by planes moved outwards, both by the rounding error; and the
+// distances of clipped vertices that tell it.
 #pragma once
 
 #include <array>
@@ -64,8 +64,8 @@ double distance_between(const ClipVertex<double>& a, const ClipVertex<double>& b
 struct AlongLine {
   double share, distance;
 };
-AlongLine along_line(const ClipVertex<double>& v, const ClipVertex<double>& a, const ClipVertex<double>& b,
-                     const Corners& c);
+AlongLine nearest_on_line(const ClipVertex<double>& v, const ClipVertex<double>& a, const ClipVertex<double>& b,
+                          const Corners& c);
 
 /// Largest coordinate of the difference between `v` and its projection onto the plane of the triangle.
 double distance_from_triangle(const ClipVertex<double>& v, const Corners& c);

@@ -221,8 +221,8 @@ constexpr std::string_view kOtherSide = ", or to another side";
 
 constexpr std::array kTruncations = {std::string_view("merge.truncated"), std::string_view("depth.truncated")};
 
-// Fault that snaps corners to whole pixels as the conventions declare, after the shift of the declared sample to the
-// pixel's centre; empty: none does.
+// Fault whose corners lie in the declared whole pixels. Frames are drawn with samples at centres: borders of pixels
+// that are sampled at corners become centres. Empty: there is none.
 std::string_view declared_snapping(const Conventions& c) {
   using enum Conventions::Rounding;
   const glm::dvec2 part = glm::fract(c.sample);

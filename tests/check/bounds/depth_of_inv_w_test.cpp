@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "capture/float_depth.h"
 #include "tests/check/bounds/sampled_triangles.h"
@@ -71,7 +72,9 @@ TEST(DepthOfInvW, CountsDistancesWithoutPerspective) {
   const glm::dvec2 p(10.5, 9.5), frame(32);
   EXPECT_GT(depth_error(in_float, corners, p, frame, -100), 50 * depth_error(in_float, corners, p, frame));
   EXPECT_GE(depth_error(in_float, corners, p, frame, 0.5), depth_error(in_float, corners, p, frame));
-  EXPECT_EQ(depth_error(in_double, corners, p, frame, -100), 0);
+  EXPECT_EQ(depth_error(in_double, corners, p, frame, -100), error_of_inv_w(corners, -100)) << "a buffer of floats";
+  EXPECT_EQ(error_of_inv_w(corners, -100), 0x1p-24 * (100 + 4 * 100.75));
+  EXPECT_EQ(error_of_inv_w(corners, {}), 0);
 }
 
 TEST(DepthOfInvW, OfPiecesIsNoLessThanThatOfAnyTriangle) {
@@ -84,7 +87,7 @@ TEST(DepthOfInvW, OfPiecesIsNoLessThanThatOfAnyTriangle) {
       longest = std::max(longest, glm::distance(glm::dvec2(at.corners[i]), glm::dvec2(at.corners[(i + 1) % 3])));
     const double slope = glm::length(glm::dvec2(normal)) / std::abs(normal.z), altitude = std::abs(at.area) / longest;
     for (const auto arithmetic : {in_float, in_float_stepped, in_float_from_origin, in_float_from_origin_stepped}) {
-      for (const double c : {501.0, 1.0, -3.0})
+      for (const std::optional<double> c : {std::optional(501.0), std::optional(1.0), std::optional(-3.0), {}})
         EXPECT_LE(depth_error(arithmetic, at.corners, at.p, at.frame, c),
                   depth_error_of_pieces(arithmetic, altitude, slope, at.frame, at.frame, c));
     }
