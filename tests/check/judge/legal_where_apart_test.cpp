@@ -6,6 +6,7 @@
 #include "check/judge/captures.h"
 #include "pipeline/stages.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/oracle/window_answers.h"
 
 namespace plumbline::check {
