@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -156,60 +157,73 @@ void learn_depth_arithmetic(Prober& prober) {
 
 namespace {
 
-// A view in perspective that makes depths steep: far - near is 1/512 of near. Window positions and z_clip of the
-// triangle are exact in float. Its window z lies in the far half; a float's step of 1/w is some 500 times that of
-// window z there.
-constexpr int kSide = 64;                              // pixels
-constexpr double kNear = 0.5, kFar = kNear + 0x1p-10;  // eye space
-constexpr double kOfZero = kFar / (kFar - kNear);      // window z
-constexpr double kOfMatrices = 16 * 0x1p-24;           // window z: of corners by float matrices
+constexpr int kSide = 64;                     // pixels
+constexpr double kOfMatrices = 16 * 0x1p-24;  // window z: of corners by float matrices
 
-struct SteepTriangle {
-  std::array<ProbeCorner, 3> corners;  // eye space
-  SlopedTriangle in_window;
+// A triangle in perspective: near and far plane, and its corners' w. Window positions and z_clip are exact in float,
+// and window z lies in the far half.
+struct View {
+  const char* name;
+  double near, far;
+  std::array<double, 3> w;
+  // Window z of a point.
+  double z(double of_w, C::ClipDepth volume) const {
+    const double out = far / (far - near) * (1 - near / of_w);
+    return volume == C::ClipDepth::zero_to_w ? 2 * out - 1 : out;
+  }
 };
 
-SteepTriangle steep_triangle(C::ClipDepth volume) {
-  constexpr std::array places = {glm::dvec3(3, 5, 5), glm::dvec3(59, 12, 6),
-                                 glm::dvec3(21, 58, 7)};  // z: 8ths of depth
-  SteepTriangle out;
+// The far plane 1/512 behind the near one: a float's step of 1/w moves window z by some 500 of its own steps.
+constexpr double kThin = 0x1p-13;
+constexpr View kSteep = {"depth_of", 0.5, 0.5 + 8 * kThin, {0.5 + 5 * kThin, 0.5 + 6 * kThin, 0.5 + 7 * kThin}};
+// Where a depth that is interpolated with perspective is far off, by window z and by 1/w.
+constexpr View kWide = {"depth_of_wide", 0.5, 1, {11 / 16.0, 13 / 16.0, 15 / 16.0}};
+
+// Depths in a view: all, and those as by window z and as by 1/w.
+struct InPerspective {
+  std::size_t pixels = 0, by_z = 0, by_inv_w = 0;
+};
+
+void count(Prober& prober, const View& view, C::DepthArithmetic arithmetic, InPerspective& out) {
+  constexpr std::array places = {glm::dvec2(3, 5), glm::dvec2(59, 12), glm::dvec2(21, 58)};
+  const C& c = prober.learned.conventions;
+  SlopedTriangle in_window;
+  std::array<std::array<ProbeCorner, 3>, 1> corners;  // eye space
   for (std::size_t i = 0; i < 3; ++i) {
-    const double w = kNear + (kFar - kNear) * places[i].z / 8, z = kOfZero * (1 - kNear / w);
-    out.in_window.p_win[i] = {glm::dvec2(places[i]), volume == C::ClipDepth::zero_to_w ? 2 * z - 1 : z};
-    out.corners[i] = {{w * (2.0 * glm::dvec2(places[i]) / double{kSide} - 1.0), w}, glm::vec4(1), {}};
+    const double w = view.w[i];
+    in_window.p_win[i] = {places[i], view.z(w, c.clip_depth)};
+    corners[0][i] = {{w * (2.0 * places[i] / double{kSide} - 1.0), w}, glm::vec4(1), {}};
   }
-  return out;
+  Scene scene = probe_frame(view.name, kSide, kSide);
+  scene.projection = Perspective{90, view.near, view.far};
+  add_triangles(scene, corners);
+  scene.frame.depth = DepthFormat::z24;
+  const double of_zero = view.z(std::numeric_limits<double>::infinity(), c.clip_depth);
+  each_depth(c, in_window, prober.draw_depths(scene), [&](glm::dvec2 sample, double step, double off) {
+    const auto fits = [&](std::optional<double> z_of_zero) {
+      const double error = depth_error(arithmetic, in_window.p_win, sample, glm::dvec2(kSide), z_of_zero);
+      return off <= kDoubleError + (kOfMatrices + error) / step ? 1 : 0;
+    };
+    ++out.pixels;
+    out.by_z += fits(std::nullopt), out.by_inv_w += fits(of_zero);
+  });
 }
 
 }  // namespace
 
-// Pixels of a triangle in a steep view, held to the errors of window z that is interpolated, and of 1/w that is.
+// Pixels of triangles in perspective, held to the errors of window z that is interpolated, and of 1/w that is.
 void learn_depth_of(Prober& prober) {
   const ConventionWords words = words_of("depth_of");
   C& c = prober.learned.conventions;
   if (prober.open_if_any_open(words, {"depth_format", "depth_rounding", kSampleWords.name})) return;
-  const SteepTriangle triangle = steep_triangle(c.clip_depth);
-  Scene scene = probe_frame("depth_of", kSide, kSide);
-  scene.projection = Perspective{90, kNear, kFar};
-  add_triangles(scene, std::array<std::array<ProbeCorner, 3>, 1>{triangle.corners});
-  scene.frame.depth = DepthFormat::z24;
-  const Plane<double> left = prober.draw_depths(scene);
   const auto arithmetic =
       prober.is_open("depth_arithmetic") ? C::DepthArithmetic::in_float_from_origin : c.depth_arithmetic;
-  const double of_zero = c.clip_depth == C::ClipDepth::zero_to_w ? 2 * kOfZero - 1 : kOfZero;
-  std::size_t pixels = 0, by_z = 0, by_inv_w = 0;
-  each_depth(c, triangle.in_window, left, [&](glm::dvec2 sample, double step, double off) {
-    const auto fits = [&](std::optional<double> z_of_zero) {
-      const double error = depth_error(arithmetic, triangle.in_window.p_win, sample, glm::dvec2(kSide), z_of_zero);
-      return off <= kDoubleError + (kOfMatrices + error) / step ? 1 : 0;
-    };
-    ++pixels;
-    by_z += fits(std::nullopt), by_inv_w += fits(of_zero);
-  });
-  const bool is_of_z = by_z == pixels;
-  const std::string evidence = fmt::format("a steep perspective: {} of {} depths as by window z {}, {} as by 1/w", by_z,
-                                           pixels, name_of(arithmetic), by_inv_w);
-  if (!is_of_z && by_inv_w < pixels) return prober.fits_none(words, evidence);
+  InPerspective of;
+  for (const View& view : {kSteep, kWide}) count(prober, view, arithmetic, of);
+  const bool is_of_z = of.by_z == of.pixels;
+  const std::string evidence = fmt::format("two views in perspective: {} of {} depths as by window z {}, {} as by 1/w",
+                                           of.by_z, of.pixels, name_of(arithmetic), of.by_inv_w);
+  if (!is_of_z && of.by_inv_w < of.pixels) return prober.fits_none(words, evidence);
   c.depth_of = is_of_z ? C::DepthOf::z : C::DepthOf::inv_w;
   prober.found(words, name_of(c.depth_of), evidence);
 }

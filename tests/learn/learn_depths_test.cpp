@@ -56,10 +56,12 @@ TEST(LearnDepths, OfInvWAreFound) {
   const auto learned_of = [](double factor, double codes) {
     OfAlteredScenes renderer;
     renderer.after = [=](const Scene& scene, Capture& c) {
-      constexpr double kOfZero = 513;  // of the probe's projection
+      const auto* view = std::get_if<Perspective>(&scene.projection);
+      const double of_zero = view != nullptr ? view->far / (view->far - view->near) : 0;
       for (double& z : c.planes.depth.values()) {
-        if (scene.name == "probe/depth_of") {
-          z = kOfZero - factor * static_cast<double>(static_cast<float>(2 * (kOfZero - z) / kOfZero)) * kOfZero / 2;
+        if (scene.name.starts_with("probe/depth_of") && z < 1) {
+          const double near = view->near, inv_w = (of_zero - z) / (of_zero * near);
+          z = of_zero - factor * static_cast<double>(static_cast<float>(inv_w)) * of_zero * near;
         } else if (z < 1 && scene.name.starts_with("probe/depth_arithmetic")) {
           z += codes / 16777215;
         }
@@ -70,10 +72,12 @@ TEST(LearnDepths, OfInvWAreFound) {
   EXPECT_EQ(learned(pipeline::make_pipeline()).depth_of, C::DepthOf::z);
   EXPECT_EQ(learned_of(1, 1).depth_of, C::DepthOf::inv_w);
   EXPECT_EQ(learned_of(1, 0).depth_of, C::DepthOf::inv_w) << "in double, kept in a float";
-  const C none = learned_of(1.0001, 1);  // beyond all roundings
-  EXPECT_EQ(none.depth_of, C::DepthOf::z);
-  EXPECT_TRUE(
-      std::ranges::any_of(none.unexplained, [](const std::string& line) { return line.starts_with("depth_of: "); }));
+  // Beyond all roundings; and as a plane of values is in perspective.
+  for (const C& none : {learned_of(1.0001, 1), learned(faulted("depth.in_perspective"))}) {
+    EXPECT_EQ(none.depth_of, C::DepthOf::z);
+    EXPECT_TRUE(
+        std::ranges::any_of(none.unexplained, [](const std::string& line) { return line.starts_with("depth_of: "); }));
+  }
 }
 
 // A clipper that drops what lies in the near half of the depths, as Direct3D's does by OpenGL's matrices.

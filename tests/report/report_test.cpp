@@ -64,6 +64,20 @@ TEST_F(Reports, ADiagnosisNamesStagesThatFailed) {
   EXPECT_TRUE(contains(diagnosis_text(none), "first different stage: none; failed: window\n"));
 }
 
+// Ties are no excuse where a judge of legal answers finds the frame wrong.
+TEST_F(Reports, ADiagnosisCallsNoFrameLegalThatIsNot) {
+  check::Diagnosis of;
+  of.first = Stage::merge;
+  Comparison alone = compared(Outcome::different, 3, 1), legal = compared(Outcome::within, 1, 8), depth = legal;
+  alone.stage = legal.stage = Stage::merge, depth.stage = Stage::depth;
+  alone.judge = {"exact", check::Kind::per_stage};
+  legal.judge = depth.judge = {"exact", check::Kind::from_scene};
+  of.verdict = verdict_of({alone, legal, depth});
+  EXPECT_TRUE(contains(diagnosis_text(of), "the frame is legal"));
+  of.verdict.comparisons[2].outcome = Outcome::different;
+  EXPECT_FALSE(contains(diagnosis_text(of), "the frame is legal")) << "its depths are not";
+}
+
 TEST_F(Reports, ASceneThatHoldsIsALine) {
   const Comparison unsupported = not_compared(Outcome::unsupported, "because of this");
   EXPECT_EQ(scene_line(verdict_of({compared(Outcome::equal), compared(Outcome::within, 1, 8), unsupported})),

@@ -35,7 +35,10 @@ std::string stage_names(const std::vector<Stage>& stages) {
 // Remark on a first different stage that may be right: its difference is legal, or the frame alone was judged.
 std::string_view remark_on(const check::Diagnosis& diagnosis) {
   const Stage stage = *diagnosis.first;
-  const bool is_legal = check::is_legal(diagnosis.verdict, stage);
+  const bool is_frame_illegal = std::ranges::any_of(diagnosis.verdict.comparisons, [](const Comparison& c) {
+    return check::judges_legality(c.judge, c.stage) && c.outcome == Outcome::different;
+  });
+  const bool is_legal = !is_frame_illegal && check::is_legal(diagnosis.verdict, stage);
   const bool follows_from_order = stage == Stage::visibility || stage == Stage::merge;
   if (is_legal && check::differs_by_steps(diagnosis.verdict, stage))
     return "; within the error of stepping in float, and the frame is legal";
