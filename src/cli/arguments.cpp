@@ -107,10 +107,9 @@ void add(CLI::App& command, CampaignOptions& o) {
        "FIRST..LAST: judge a scene for each, but those that a journal holds; without it, "
        "report what the journals hold");
   command
-      .add_option(
-          "--generator", o.generator,
-          "ordinary, hard, both, plain, inside or flat: who writes the scenes; plain ones are opaque triangles "
-          "alone, inside ones in perspective, cut by no plane, flat ones of one colour a draw and no depth test")
+      .add_option("--generator", o.generator,
+                  "ordinary, hard, both, plain, inside or flat: who writes the scenes; plain: opaque triangles alone; "
+                  "inside: such ones that no plane cuts; flat: of one colour a draw, without a depth test")
       ->check(CLI::IsMember({"ordinary", "hard", "both", "plain", "inside", "flat"}))
       ->capture_default_str();
   command
