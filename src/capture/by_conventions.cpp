@@ -28,6 +28,13 @@ double to_window(C::DepthRange range, double z) {
 
 }  // namespace
 
+double rounded_in_range(C::DepthRange range, double z) {
+  const double kept = range == C::DepthRange::minus_one_to_one ? 2 * z - 1
+                      : range == C::DepthRange::one_to_zero    ? 1 - z
+                                                               : z;
+  return to_window(range, static_cast<float>(kept));
+}
+
 bool is_opaque(const Scene& scene) {
   const auto is_one = [](const glm::vec4& color) { return color.a == 1; };
   const auto has_opaque_colors = [&](const Mesh& mesh) { return std::ranges::all_of(mesh.colors, is_one); };

@@ -34,6 +34,9 @@ class SceneByConventions {
 /// The depth buffer's format: the convention's, or the frame's where that is as_asked.
 DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& conventions);
 
+/// The depth `z` [window space] as a buffer of float holds it that keeps depths in `range`: rounded there.
+double rounded_in_range(Conventions::DepthRange range, double z);
+
 /// Whether the frame's alpha is 1 whatever is drawn: alphas of the clear colour, of vertices, materials, texels and
 /// borders are 1, and no draw blends or has a logic op.
 bool is_opaque(const Scene& scene);

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "capture/by_conventions.h"
 #include "capture/seen_as.h"
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
@@ -132,17 +134,26 @@ void compare_visible(const SceneJudgement& c, const Capture& made, const JudgeId
   c.add(name, Stage::visibility, std::move(m), nullptr, c.note_of_winners());
 }
 
-// Exact's planes. Where the scene's clear depth lies half way between two codes, the background, and what lies beneath
-// winners that write no depth, have the code that a foreign candidate took.
+// Values of a cleared depth that a candidate may hold: the codes below and above, where the scene's clear depth lies
+// half way between two codes; in a buffer of float, the clear depth itself, and the one rounded in the declared range.
+std::array<double, 2> cleared_depths(const FrameFormat& frame, Conventions::DepthRange range) {
+  const double scale = depth_scale(frame.depth), code = frame.clear_depth * scale;
+  if (scale == 0) return {frame.clear_depth, rounded_in_range(range, frame.clear_depth)};
+  const bool is_half = std::abs(code - std::floor(code) - 0.5) < 0x1p-20;
+  const double nearest = depth_in_format(frame.depth, frame.clear_depth);
+  return is_half ? std::array{std::floor(code) / scale, std::ceil(code) / scale} : std::array{nearest, nearest};
+}
+
+// Exact's planes. Where a foreign candidate may hold either of two cleared depths, the background, and what lies
+// beneath winners that write no depth, have the one that the candidate took.
 Planes with_either_clear_depth(const SceneJudgement& c, const Planes& made) {
   Planes out = made;
   const Planes& mine = c.candidate.planes;
-  const double scale = depth_scale(c.scene.frame.depth), code = c.scene.frame.clear_depth * scale;
-  const bool is_half = scale > 0 && std::abs(code - std::floor(code) - 0.5) < 0x1p-20;
+  const auto [a, b] = cleared_depths(c.scene.frame, c.conventions.depth_range);
   const bool fits = mine.id.size() == out.depth.size() && mine.depth.size() == out.depth.size();
-  if (!c.foreign || !is_half || !fits) return out;
+  if (!c.foreign || a == b || !fits) return out;
   const DrawIndex draws(c.scene);
-  const auto is_either = [&](double z) { return z == std::floor(code) / scale || z == std::ceil(code) / scale; };
+  const auto is_either = [a = a, b = b](double z) { return z == a || z == b; };
   std::vector<std::size_t> cleared;  // pixels
   for (std::size_t i = 0; i < mine.id.size(); ++i) {
     const std::int32_t winner = mine.id.values()[i];

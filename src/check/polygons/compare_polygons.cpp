@@ -262,7 +262,8 @@ Records<double> cut_at_sides(Records<double> records) {
   for (const ClipPolygon& of : records.polygons.polygons) {
     const auto first = records.polygons.vertices.begin() + static_cast<std::ptrdiff_t>(of.first);
     Polygon polygon(first, first + static_cast<std::ptrdiff_t>(of.count));
-    for (std::size_t side = 0; side < kSides && of.count > 2; ++side) {
+    const bool is_ahead = std::ranges::all_of(polygon, [](const auto& v) { return v.p_clip.w > 0; });
+    for (std::size_t side = 0; side < kSides && of.count > 2 && is_ahead; ++side) {
       if (reaches_beyond(polygon, side)) polygon = cut_by(polygon, side, 0);
     }
     if (polygon.empty()) continue;

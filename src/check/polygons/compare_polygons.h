@@ -27,7 +27,8 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
 /// Records with their polygons cut at the sides of the view volume, in double. A polygon is cut at a side if one of its
 /// vertices is beyond that side by more than rounding, 2^-16 of its largest coordinate: a renderer may cut at the side,
 /// farther out (guard band), or not at all, since no pixel of the frame lies beyond. Polygons wholly beyond a side are
-/// left out; lines and points stay unchanged. Varyings are not cut: their columns no longer fit the vertices.
+/// left out; lines, points, and polygons with a vertex of w <= 0, which no rasterizer can place, stay unchanged.
+/// Varyings are not cut: their columns no longer fit the vertices.
 Records<double> cut_at_sides(Records<double> records);
 
 }  // namespace plumbline::check

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "capture/by_conventions.h"
 #include "capture/fragment_outcomes.h"
 #include "check/bounds/bounds.h"
 #include "check/compare/compare_planes.h"
@@ -286,6 +287,30 @@ TEST(LegalDepths, AClearDepthBeneathDrawsWithoutDepthIsOfOneCode) {
   ASSERT_NE(drawn, mine.planes.id.values().end());
   depth[static_cast<std::size_t>(drawn - mine.planes.id.values().begin())] = own;
   EXPECT_EQ(judged(), Outcome::different);
+}
+
+// A buffer of float from 1 to 0 rounds 1 - 0.1: the clear depth in window space is 0.1, or 1 minus the rounded
+// difference, and no other.
+TEST(LegalDepths, AClearDepthInFloatIsRoundedInTheDeclaredRange) {
+  using Range = Conventions::DepthRange;
+  Scene scene = suite_scene("depth/interpenetrating");
+  scene.frame.depth = DepthFormat::z32f, scene.frame.clear_depth = 0.1F;
+  for (Draw& draw : scene.draws) draw.depth_func = DepthFunc::always;
+  const Capture right = pipeline::make_pipeline()->capture(scene, {.records = StageSet::all()});
+  const auto judged = [&](double cleared, Range range) {
+    Capture mine = right;
+    for (std::size_t i = 0; i < mine.planes.id.size(); ++i)
+      if (mine.planes.id.values()[i] == kBackground) mine.planes.depth.values()[i] = cleared;
+    Conventions conventions;
+    conventions.depth_range = range;
+    return row_of_stage(scene, mine, Stage::merge, conventions).outcome;
+  };
+  const double clear = 0.1F, rounded = rounded_in_range(Range::one_to_zero, clear);
+  ASSERT_NE(rounded, clear);
+  EXPECT_NE(judged(clear, Range::one_to_zero), Outcome::different);
+  EXPECT_NE(judged(rounded, Range::one_to_zero), Outcome::different);
+  EXPECT_EQ(judged(rounded, Range::zero_to_one), Outcome::different);
+  EXPECT_EQ(judged(2 * rounded - clear, Range::one_to_zero), Outcome::different);
 }
 
 // Codes of 16 bits are held to their declared rounding though depths are interpolated in float; of 24 bits they are

@@ -60,6 +60,16 @@ TEST_F(CutAtSides, ACornerBeyondThatIsMovedOrColouredOtherwiseFails) {
   EXPECT_TRUE(fails(cut(uncut(2, [](auto& v) { v.color.g += 0.01; }))));
 }
 
+// A rasterizer divides by w, so a polygon that reaches behind the eye cannot be left to it.
+TEST_F(CutAtSides, APolygonThatReachesBehindTheEyeStaysAsItIs) {
+  const auto corners_left = [&](double w) {
+    return cut_at_sides(uncut(2, [&](auto& v) { v.p_clip.w = w; })).polygons.polygons[2].count;
+  };
+  EXPECT_EQ(corners_left(0x1p-4), 4u);
+  EXPECT_EQ(corners_left(0), 3u);
+  EXPECT_EQ(corners_left(-1), 3u);
+}
+
 TEST_F(CutAtSides, TheNearPlaneCutsAllTheSame) { EXPECT_TRUE(fails(cut(uncut(1)))); }
 
 TEST_F(CutAtSides, WhatLiesBeyondASideIsNotThere) {
