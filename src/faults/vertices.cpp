@@ -5,6 +5,7 @@
 #include "faults/lists.h"
 #include "faults/variants.h"
 #include "pipeline/geometry.h"
+#include "transforms/normal.h"
 
 namespace plumbline::faults {
 
@@ -98,6 +99,18 @@ constexpr auto kDepthRangeNotMapped = [](const Scene&, Matrices<float>& m) {
   m.win_scale.z = m.win_translate.z = 0.5f;
 };
 
+// Model times view, for view times model.
+Matrices<float> view_last(const Scene& scene, const Draw& draw) {
+  Draw unmoved = draw;
+  unmoved.transforms.clear();
+  const glm::dmat4 view(pipeline::matrices(scene, unmoved).model_view);
+  Matrices<float> m = pipeline::matrices(scene, draw);
+  const glm::dmat4 model_view = glm::inverse(view) * glm::dmat4(m.model_view) * view;
+  m.model_view = glm::mat4(model_view);
+  m.normal = glm::mat3(transforms::normal_matrix(model_view));
+  return m;
+}
+
 constexpr auto kNormalsByInverse = [](const Scene&, Matrices<float>& m) { m.normal = glm::transpose(m.normal); };
 
 constexpr auto kViewportOneShort = [](const Scene&, Matrices<float>& m) {
@@ -161,6 +174,10 @@ constexpr auto kEyePositionOfModel = [](const Matrices<float>&, const glm::vec3&
 
 constexpr auto kWIsOne = [](const Matrices<float>&, const glm::vec3&, Vertex<float>& v) { v.p_clip.w = 1; };
 
+constexpr auto kProjectionFirst = [](const Matrices<float>& m, const glm::vec3& p_model, Vertex<float>& v) {
+  v.p_clip = m.model_view * (m.projection * Vec4<float>(p_model, 1));
+};
+
 constexpr std::array kVertices = {
     stage_fault("matrices.fov_horizontal", "the vertical field of view is taken for the horizontal one",
                 put<&Stages::matrices, matrices_changed<kFovHorizontal>>),
@@ -196,6 +213,8 @@ constexpr std::array kVertices = {
                 put<&Stages::matrices, matrices_changed<kNormalsByInverse>>),
     stage_fault("matrices.transforms_reversed", "a draw's transforms are multiplied in the other order",
                 put<&Stages::matrices, matrices_of_other<kTransformsReversed>>, "glob3mobile/g3m#197"),
+    stage_fault("matrices.view_last", "the view and a draw's transforms are multiplied in the other order",
+                put<&Stages::matrices, view_last>),
     stage_fault("matrices.rotation_sign", "rotations turn clockwise",
                 put<&Stages::matrices, matrices_of_other<kClockwise>>),
     stage_fault("matrices.degrees_for_radians", "a rotation's degrees are taken for radians",
@@ -214,6 +233,8 @@ constexpr std::array kVertices = {
                 put<&Stages::vertex, vertices_changed<kEyePositionOfModel>>),
     stage_fault("vertex.w_is_one", "w of the clip position is left at 1",
                 put<&Stages::vertex, vertices_changed<kWIsOne>>),
+    stage_fault("vertex.projection_first", "the projection and the model-view matrix are multiplied in the other order",
+                put<&Stages::vertex, vertices_changed<kProjectionFirst>>),
 };
 
 }  // namespace

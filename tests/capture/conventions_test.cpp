@@ -64,9 +64,10 @@ TEST_F(ConventionsFile, WhatIsWrongIsRefusedWithItsPlace) {
     EXPECT_NE(refusal(head + R"("unexplained": [)" + line + "]}").find("/unexplained/0"), std::string::npos) << line;
   }
   EXPECT_NE(refusal(head + R"("offset_unit": [2, -1]})").find("/offset_unit/1"), std::string::npos);
-  for (const char* corners : {"attribute_corners", "depth_corners"}) {
-    const std::string said = refusal(head + R"("subpixel_bits": "float", ")" + corners + R"(": "snapped"})");
-    EXPECT_NE(said.find(std::string("/") + corners + "\": expected another value than snapped"), said.npos) << said;
+  for (const auto& [key, word] : {std::pair("attribute_corners", "snapped"), std::pair("depth_corners", "snapped"),
+                                  std::pair("subpixel_rounding", "down"), std::pair("subpixel_rounding", "up")}) {
+    const std::string said = refusal(fmt::format(R"({}"subpixel_bits": "float", "{}": "{}"}})", head, key, word));
+    EXPECT_NE(said.find(fmt::format("/{}\": expected another value than {}", key, word)), said.npos) << said;
   }
   EXPECT_NE(refusal(R"({"format": "plumbline goldens", "version": 1})").find("/format"), std::string::npos);
   EXPECT_NE(refusal(R"({"format": "plumbline conventions", "version": 2})").find("/version"), std::string::npos);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -58,10 +59,12 @@ Conventions read_conventions(const std::filesystem::path& path) {
   each_number_of_bits([&](const ConventionWords& words, auto member) {
     if (const auto node = root.find(words.name)) out.*member = bits_at(*node);
   });
-  for (const char* corners : {"attribute_corners", "depth_corners"}) {
-    const auto node = root.find(corners);
-    if (out.subpixel_bits == Conventions::kFloat && node && node->text() == "snapped")
-      node->refuse("another value than snapped: subpixel_bits is \"float\", nothing is snapped");
+  // Of a renderer that does not snap: the words that say how it snaps.
+  for (const auto& [key, word] : {std::pair("attribute_corners", "snapped"), std::pair("depth_corners", "snapped"),
+                                  std::pair("subpixel_rounding", "down"), std::pair("subpixel_rounding", "up")}) {
+    const auto node = root.find(key);
+    if (out.subpixel_bits == Conventions::kFloat && node && node->text() == word)
+      node->refuse(fmt::format("another value than {}: subpixel_bits is \"float\", nothing is snapped", word));
   }
   const auto read_names = [&](const char* key, std::vector<std::string>& into) {
     const auto node = root.find(key);

@@ -30,6 +30,13 @@ bool smooth_as_flat(Scene& scene) {
   })(scene);
 }
 
+// Loses the last triangle of each mesh of several.
+bool loses_last_triangle(Mesh& mesh) {
+  if (mesh.topology != Topology::triangles || mesh.triangles.size() < 2) return false;
+  mesh.triangles.pop_back();
+  return true;
+}
+
 // Scissor box of which width and height are taken for its right and its upper side.
 bool end_at_size(Draw& d) {
   if (!d.scissor) return false;
@@ -84,6 +91,8 @@ std::vector<MisreadState> states_of_geometry() {
        [](Scene& s) { return reset(s.light_model.sides, LightModel::Sides::one); }, kOfLightEquation},
       {"light", "phong_shading_ignored", "draws are lit at their vertices, not at their fragments",
        of_draws([](Draw& d) { return d.shading == Shading::phong && reset(d.shading, Shading::gouraud); })},
+      {"clip", "last_triangle_lost", "the last triangle of a mesh is not drawn",
+       of_each<&Scene::meshes>(loses_last_triangle)},
       {"clip", "smooth_shading_ignored", "triangles have the colour of their last corner", smooth_as_flat},
       {"clip", "flat_shading_ignored", "flat triangles have the colours of all corners",
        of_draws([](Draw& d) { return d.shading == Shading::flat && reset(d.shading, Shading::gouraud); })},

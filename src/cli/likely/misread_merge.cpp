@@ -12,6 +12,18 @@ bool reset_equation(Draw& draw) {
   return reset(draw.merge.blend->alpha.equation, BlendEquation::add) || rgb;
 }
 
+// Exchanges source - destination and destination - source.
+constexpr auto kSubtractsTheOtherWay = [](Draw& d) {
+  using enum BlendEquation;
+  if (!d.merge.blend) return false;
+  bool changed = false;
+  for (BlendTerm* term : {&d.merge.blend->rgb, &d.merge.blend->alpha}) {
+    if (term->equation == subtract || term->equation == reverse_subtract)
+      changed |= reset(term->equation, term->equation == subtract ? reverse_subtract : subtract);
+  }
+  return changed;
+};
+
 constexpr auto kBlendsByAlpha = [](Draw& d) {
   if (!d.merge.blend) return false;
   bool changed = false;
@@ -110,6 +122,8 @@ std::vector<MisreadState> states_of_merge() {
       {"merge", "destination_factor_of_one", "blending adds to the stored colour as it is, whatever its factor",
        of_draws(becomes_one<&BlendTerm::destination>)},
       {"merge", "blend_equation_ignored", "blended colours are added, whatever the equation", of_draws(reset_equation)},
+      {"merge", "subtracted_the_other_way", "blending subtracts the source where it should the stored colour, and back",
+       of_draws(kSubtractsTheOtherWay)},
       {"merge", "saturate_ignored", "factor source_alpha_saturate is the source's alpha alone",
        of_draws(saturates_nothing)},
       {"merge", "blend_color_ignored", "blending's constant colour is black, with alpha 0",
