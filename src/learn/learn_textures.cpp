@@ -170,6 +170,7 @@ void learn_weights(Prober& prober) {
   if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");
   const double rounding = c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01;
   const bool are_float = most <= rounding;
+  constexpr double kOfFourBits = 16;    // codes by which texels of four bits are off at most, truncated or replicated
   constexpr double kOtherRounding = 1;  // code by which another rounding of colours may differ
   const auto unfiltered_off = [&] {
     try {
@@ -179,8 +180,9 @@ void learn_weights(Prober& prober) {
     }
   };
   if (const double off = are_float ? 0 : unfiltered_off(); off > rounding + kOtherRounding)
-    return prober.fits_none(
-        words, fmt::format("{}; texels that are not filtered, {:.2f}: they are kept in fewer bits", evidence, off));
+    return prober.fits_none(words, fmt::format("{}; texels that are not filtered, {:.2f}: {}", evidence, off,
+                                               off <= kOfFourBits ? "they are kept in fewer bits"
+                                                                  : "others are taken, such as those of another row"));
   int bits = C::kFloat;
   if (!are_float) {
     const WeightErrors errors = weight_errors(prober);

@@ -76,22 +76,26 @@ TEST(LearnTextures, CurvesAndOffsetsAreNoWeightsOfFewBits) {
   EXPECT_NE(says(test::moved_by_a_texels_part).find("no rounding"), std::string::npos);
 }
 
-// Texels of 5, 6 and 5 bits, filtered with weights in float.
-TEST(LearnTextures, TexelsOfFewBitsAreNoWeightsOfFewBits) {
-  OfAlteredScenes renderer;
-  renderer.before = [](Scene& scene) {
-    const auto kept = [](float& channel, float codes) { channel = std::floor(channel * codes + 0.5f) / codes; };
-    for (Texture& texture : scene.textures) {
-      for (TextureLevel& level : texture.levels) {
-        for (glm::vec4& texel : level.texels) kept(texel.r, 31), kept(texel.g, 63), kept(texel.b, 31);
-      }
-    }
+// Texels of 5, 6 and 5 bits, or upside down, filtered with weights in float.
+TEST(LearnTextures, WrongTexelsAreNoWeightsOfFewBits) {
+  const auto says = [](void (*alter)(std::vector<glm::vec4>&), const std::string& text) {
+    OfAlteredScenes renderer;
+    renderer.before = [alter](Scene& scene) {
+      for (Texture& texture : scene.textures)
+        for (TextureLevel& level : texture.levels) alter(level.texels);
+    };
+    const C found = learn(renderer).conventions;
+    EXPECT_EQ(found.texture_bits, C::kFloat);
+    return std::ranges::any_of(found.unexplained,
+                               [&](const std::string& finding) { return finding.find(text) != std::string::npos; });
   };
-  const C found = learn(renderer).conventions;
-  EXPECT_EQ(found.texture_bits, C::kFloat);
-  EXPECT_TRUE(std::ranges::any_of(found.unexplained, [](const std::string& finding) {
-    return finding.find("they are kept in fewer bits") != std::string::npos;
-  }));
+  const auto of_few_bits = [](std::vector<glm::vec4>& texels) {
+    const auto kept = [](float& channel, float codes) { channel = std::floor(channel * codes + 0.5f) / codes; };
+    for (glm::vec4& texel : texels) kept(texel.r, 31), kept(texel.g, 63), kept(texel.b, 31);
+  };
+  const auto turned = [](std::vector<glm::vec4>& texels) { std::ranges::reverse(texels); };
+  EXPECT_TRUE(says(of_few_bits, "they are kept in fewer bits"));
+  EXPECT_TRUE(says(turned, "others are taken"));
 }
 
 }  // namespace
