@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "check/bounds/bounds.h"
@@ -47,22 +48,41 @@ void depth_of(WindowTriangle<double>& t) {
   for (WindowVertex<double>& v : t.v) v.p_win.z = t.v[corner].p_win.z;
 }
 
-// Whether the pixels that differ all lie on edges, and are missing, extra, or of both kinds.
-enum class EdgeDifference { missing, extra, both };
-template <EdgeDifference kind>
-bool all_on_edges(const Evidence& e) {
+// Whether a missing pixel, and an extra one, is among pixels that differ and all lie on edges; nullopt: others differ.
+struct EdgeDifferences {
   bool missing = false, extra = false;
+  bool operator==(const EdgeDifferences&) const = default;
+};
+std::optional<EdgeDifferences> on_edges_alone(const Evidence& e) {
+  EdgeDifferences out;
   for (const CoverageDifference& d : coverage_differences(e)) {
     const WindowTriangle<double>& t = e.candidate.records.triangles.at(d.triangle);
-    if (t.corners != 3) return false;
+    if (t.corners != 3) return std::nullopt;
     for (const auto* pixels : {&d.missing, &d.extra}) {
       if (!std::ranges::all_of(*pixels, [&](glm::ivec2 p) { return on_an_edge(t, p, sample_offset(e.scene.frame)); }))
-        return false;
+        return std::nullopt;
     }
-    missing = missing || !d.missing.empty();
-    extra = extra || !d.extra.empty();
+    out.missing = out.missing || !d.missing.empty();
+    out.extra = out.extra || !d.extra.empty();
   }
-  return missing == (kind != EdgeDifference::extra) && extra == (kind != EdgeDifference::missing);
+  return out;
+}
+
+// Rule that gives samples on edges to all triangles, or to none; exact's own rule gives them to one.
+bool gives_to_all_or_none(Conventions::TieRule rule) {
+  return rule == Conventions::TieRule::inclusive || rule == Conventions::TieRule::exclusive;
+}
+
+template <bool missing, bool extra>
+bool by_tie_rule(const Evidence& e) {
+  return !gives_to_all_or_none(e.conventions.tie_rule) && on_edges_alone(e) == EdgeDifferences{missing, extra};
+}
+
+// Missing pixels are a crack where the declared rule has all samples on edges; extra ones overlap where it has none.
+bool unlike_declared_rule(const Evidence& e) {
+  if (!gives_to_all_or_none(e.conventions.tie_rule)) return false;
+  const std::optional<EdgeDifferences> found = on_edges_alone(e);
+  return found && (e.conventions.tie_rule == Conventions::TieRule::inclusive ? found->missing : found->extra);
 }
 
 // True: triangles that differ lack pixels of their last column or row alone. (One such pixel must lie off all edges,
@@ -158,14 +178,16 @@ using S = Stage;
 
 constexpr std::array kRasterCauses = {
     seen(S::coverage, "coverage.inclusive_edges",
-         "covered sets differ only on edges, all of them extra: the tie rule is inclusive",
-         all_on_edges<EdgeDifference::extra>),
+         "covered sets differ only on edges, all of them extra: the tie rule is inclusive", by_tie_rule<false, true>),
     seen(S::coverage, "coverage.strict_edges",
-         "covered sets differ only on edges, all of them missing: the tie rule is exclusive",
-         all_on_edges<EdgeDifference::missing>),
+         "covered sets differ only on edges, all of them missing: the tie rule is exclusive", by_tie_rule<true, false>),
     seen(S::coverage, "coverage.wrong_corner",
          "covered sets differ only on edges, missing and extra: the tie rule has another corner",
-         all_on_edges<EdgeDifference::both>),
+         by_tie_rule<true, true>),
+    seen(S::coverage, "coverage.unlike_declared_rule",
+         "covered sets differ only on edges, and not as declared: a crack by tie rule inclusive, an overlap by "
+         "exclusive",
+         unlike_declared_rule),
     seen(S::coverage, "coverage.box_one_short", "triangles lack their last column or row: the box is one short",
          box_one_short),
     seen(S::coverage, "coverage.small_dropped",

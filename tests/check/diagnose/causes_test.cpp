@@ -6,6 +6,7 @@
 
 #include "check/diagnose/diagnose.h"
 #include "check/diagnose/known_causes.h"
+#include "check/judge/run_by_conventions.h"
 #include "check/judge/stage_copy.h"
 #include "faults/faults.h"
 #include "renderers/pipeline_renderer.h"
@@ -218,6 +219,37 @@ TEST(Causes, FixedPointIsToldByItsNumbers) {
   EXPECT_EQ(causes(Stage::vertex, 0x1p-16, "camera/transform_chain", 0.25), Names{}) << "numbers of another mistake";
   EXPECT_EQ(causes(Stage::matrices, 0x1p-20), Names{});
   EXPECT_EQ(causes(Stage::vertex, 0x1p-20), Names{});
+}
+
+// A renderer that declares who owns samples on shared edges: both triangles, and neither has one; or neither, and both
+// have them.
+TEST(Causes, OfDifferencesOnEdgesGoByTheDeclaredRule) {
+  using Rule = Conventions::TieRule;
+  const auto exact = exact::make_exact();
+  const Scene scene = suite_scene("coverage/on_centres");
+  const auto inclusive = pipeline::make_pipeline(faults::named("coverage.inclusive_edges").stages());
+  const auto causes = [&](Rule rule, bool is_cracked) {
+    Capture mine = inclusive->capture(scene, {.records = StageSet::all()});
+    Records<double>& r = mine.records;
+    const auto is_tie = [&](const Covered& c) {
+      return on_an_edge(r.triangles[c.triangle], {c.x, c.y}, {}) && mine.planes.count(c.x, c.y) == 2;
+    };
+    if (is_cracked) std::erase_if(r.covered, is_tie);
+    FragmentSums sums = fragment_sums(r.covered, r.triangles, mine.width, mine.height);
+    mine.planes.count = std::move(sums.count), mine.planes.id_sum = std::move(sums.id_sum);
+    Conventions declared;
+    declared.tie_rule = rule;
+    const Capture expected = run_by_conventions(*exact, scene, Stage::coverage, mine, declared);
+    std::set<std::string_view> out;
+    for (const Cause& c : likely_causes({scene, Stage::coverage, mine, expected, exact.get(), declared, true}))
+      out.insert(c.name);
+    return out;
+  };
+  using Names = std::set<std::string_view>;
+  EXPECT_EQ(causes(Rule::inclusive, false), Names{});
+  EXPECT_EQ(causes(Rule::inclusive, true), Names{"coverage.unlike_declared_rule"});
+  EXPECT_EQ(causes(Rule::exclusive, false), Names{"coverage.unlike_declared_rule"});
+  EXPECT_EQ(causes(Rule::left_bottom, false), Names{"coverage.inclusive_edges"});
 }
 
 // A frame of one row, out of which several mistakes move all samples.
