@@ -45,7 +45,8 @@ namespace {
 
 // Depths that another renderer's frame may hold where the winner writes no depth (depth_mask off): values of the
 // fragment that left the candidate's depth and, where a depth test is open (open_pixels.h), of fragments that tie with
-// it. With a stencil test at such a pixel, whose outcome depends on earlier fragments, every fragment counts as tied.
+// it; also the clear depth, if that ties. With a stencil test at such a pixel, whose outcome depends on earlier
+// fragments, every depth counts as tied.
 class DepthsBeneath {
  public:
   DepthsBeneath(const Scene& scene, const Capture& candidate, const DrawIndex& draws)
@@ -75,16 +76,19 @@ class DepthsBeneath {
     if (!left && z == static_cast<double>(scene_.frame.clear_depth)) left = Values{{z}, 0};  // nothing was drawn
     if (!left) return;
     const auto of_left = std::ranges::minmax(left->depths);
+    const auto is_tied = [&](const Values& of) {
+      const double reach = factor * u * (left->bound + of.bound) + depth_step(scene_.frame.depth, z);
+      const auto [low, high] = std::ranges::minmax(of.depths);
+      return open_(x, y) != 0 && (by_stencil || (low <= of_left.max + reach && high >= of_left.min - reach));
+    };
     fragments_.each(x, y, [&](std::size_t i) {
       if (!leaves(i)) return;
       const Values of = values(i, x, y);
-      const double reach = factor * u * (left->bound + of.bound) + depth_step(scene_.frame.depth, z);
-      const auto [low, high] = std::ranges::minmax(of.depths);
-      const bool near = by_stencil || (low <= of_left.max + reach && high >= of_left.min - reach);
-      const bool tied = open_(x, y) != 0 && near;
-      if (records_.depth[i] != z && !tied) return;
+      if (records_.depth[i] != z && !is_tied(of)) return;
       for (const double depth : of.depths) visit(depth - z, of.bound);
     });
+    const double cleared = scene_.frame.clear_depth;
+    if (is_tied({{cleared}, 0})) visit(cleared - z, 0);
   }
 
  private:

@@ -230,6 +230,35 @@ TEST(CheckLines, OtherFragmentsMayHaveLeftTheDepthThatAWinnerLeaves) {
   EXPECT_FALSE(passes(compare_depth_planes(scene, mine, theirs, 4))) << "of the same fragments";
 }
 
+// A line of depth 0.55 by the projection, 0.5 by the major axis, beneath a winner that writes no depth: by 0.5 the line
+// fails against a clear depth between the two.
+TEST(CheckLines, TheClearDepthStaysWhereALinesOtherDepthFails) {
+  constexpr std::uint32_t kOfSecondDraw = 2;
+  Scene scene;
+  scene.frame.width = 16, scene.frame.height = 12;
+  scene.frame.depth = DepthFormat::z32f;
+  scene.meshes.resize(1);
+  scene.meshes[0].triangles.resize(2);
+  scene.draws.resize(2);
+  scene.draws[1].merge.depth_mask = false;
+  Capture mine =
+      drawn({line_of({2.5, 1.5}, {6.5, 3.5}, 1), line_of({2.5, 3.5}, {6.5, 3.5}, kOfSecondDraw)}, {{{4, 3}}, {{4, 3}}});
+  mine.records.drawn.assign(2, {.drawn = true});
+  mine.records.depth = {0.55, 0.25};
+  mine.planes.depth(4, 3) = 0.55;
+  const auto against = [&](double cleared, DepthFunc func, double reference) {
+    scene.frame.clear_depth = cleared;
+    scene.draws[0].depth_func = func;
+    Capture theirs = mine;
+    theirs.planes.depth(4, 3) = reference;
+    return compare_depth_planes(scene, mine, theirs, 4);
+  };
+  EXPECT_TRUE(passes(against(0.52, DepthFunc::greater, 0.52)));
+  EXPECT_TRUE(fails(against(0.52, DepthFunc::greater, 0.53))) << "neither a line's depth nor the clear depth";
+  EXPECT_TRUE(fails(against(0.4, DepthFunc::greater, 0.4))) << "the line passes by either depth";
+  EXPECT_TRUE(fails(against(0.52, DepthFunc::always, 0.52))) << "no depth is compared";
+}
+
 TEST(CheckLines, WhereEdgesMeetEitherMayHaveBeenDrawnLast) {
   const WindowTriangle<double> second = line_of({6.5, 4.5}, {6.5, 8.5}, 1);
   const Records<double> one = drawn({kFlat}, {{}}).records, two = drawn({kFlat, second}, {{}, {}}).records;
