@@ -156,11 +156,18 @@ double error_by_stepped_edges(const WindowCorners& corners, glm::dvec2 p, glm::d
   return or_infinite(std::max({of_sum(0), of_sum(corners[0].z), of_sum(corners[1].z), of_sum(corners[2].z)}));
 }
 
+namespace {
+
+// error_of_inv_w() of corners of which the largest |z_i - z_of_zero| is `most`.
+double error_of_inv_w_within(double z_of_zero, double most) { return kU * (std::abs(z_of_zero) + 4 * most); }
+
+}  // namespace
+
 double error_of_inv_w(const WindowCorners& corners, std::optional<double> z_of_zero) {
   if (!z_of_zero) return 0;
   double most = 0;
   for (const glm::dvec3& corner : corners) most = std::max(most, std::abs(corner.z - *z_of_zero));
-  return kU * (std::abs(*z_of_zero) + 4 * most);
+  return error_of_inv_w_within(*z_of_zero, most);
 }
 
 double depth_error(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,
@@ -205,7 +212,7 @@ double depth_error_of_pieces(Conventions::DepthArithmetic arithmetic, double alt
                              glm::dvec2 frame, std::optional<double> z_of_zero) {
   using enum Conventions::DepthArithmetic;
   const double from = z_of_zero.value_or(0), most = std::max({1.0, std::abs(from), std::abs(1 - from)}),
-               of_inv_w = z_of_zero ? kU * (std::abs(from) + 4 * most) : 0;
+               of_inv_w = z_of_zero ? error_of_inv_w_within(from, most) : 0;
   if (arithmetic == in_double) return of_inv_w;
   if (!(altitude > 0)) return kInfinity;
   const double diagonal = glm::length(window), thin = diagonal / altitude,

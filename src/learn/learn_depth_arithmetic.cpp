@@ -184,7 +184,8 @@ struct InPerspective {
   std::size_t pixels = 0, by_z = 0, by_inv_w = 0;
 };
 
-void count(Prober& prober, const View& view, C::DepthArithmetic arithmetic, InPerspective& out) {
+// Draws the view's triangle, and counts.
+void count_in_perspective(Prober& prober, const View& view, C::DepthArithmetic arithmetic, InPerspective& out) {
   constexpr std::array places = {glm::dvec2(3, 5), glm::dvec2(59, 12), glm::dvec2(21, 58)};
   const C& c = prober.learned.conventions;
   SlopedTriangle in_window;
@@ -219,7 +220,7 @@ void learn_depth_of(Prober& prober) {
   const auto arithmetic =
       prober.is_open("depth_arithmetic") ? C::DepthArithmetic::in_float_from_origin : c.depth_arithmetic;
   InPerspective of;
-  for (const View& view : {kSteep, kWide}) count(prober, view, arithmetic, of);
+  for (const View& view : {kSteep, kWide}) count_in_perspective(prober, view, arithmetic, of);
   const bool is_of_z = of.by_z == of.pixels;
   const std::string evidence = fmt::format("two views in perspective: {} of {} depths as by window z {}, {} as by 1/w",
                                            of.by_z, of.pixels, name_of(arithmetic), of.by_inv_w);

@@ -55,13 +55,14 @@ class DepthsBeneath {
         draws_(draws),
         fragments_(FragmentsByPixel::covered(scene.frame, records_)),
         offsets_(scene) {
-    known_ = records_.drawn.size() == records_.covered.size() && records_.depth.size() == records_.covered.size();
-    if (known_ && !records_.covered.empty()) open_ = open_by_depth(scene, candidate);
+    const std::size_t fragments = records_.covered.size();
+    const bool are_known = records_.drawn.size() == fragments && records_.depth.size() == fragments;
+    if (are_known && fragments > 0) open_ = open_by_depth(scene, candidate);
   }
   // Calls visit(depth - z, bound [u]) for each such depth, if a fragment or the clear value left z.
   template <class Visit>
   void each(int x, int y, double z, double factor, Visit visit) const {
-    if (!known_) return;
+    if (open_.empty()) return;
     const auto leaves = [&](std::size_t i) {
       const Draw* draw = draws_.draw(triangle_of(i).primitive);
       return draw != nullptr && draw->merge.depth_mask;
@@ -117,8 +118,7 @@ class DepthsBeneath {
   const DrawIndex& draws_;
   FragmentsByPixel fragments_;
   OffsetErrors offsets_;
-  Plane<std::uint8_t> open_;
-  bool known_ = false;
+  Plane<std::uint8_t> open_;  // empty: no fragment is known
 };
 
 }  // namespace
