@@ -116,6 +116,13 @@ inline double distance_outside(double value, double low, double high) {
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
 }
 
+/// Adds a stored number that differs if it is no code of 0 to `scale`, to two roundings of float; scale 0: any number.
+inline void meter_code(Meter& meter, double scale, double stored, const Place& place) {
+  const double code = std::clamp(std::round(scale * stored), 0.0, scale);
+  const bool is_code = scale == 0 || std::abs(scale * stored - code) <= scale * 2 * u;
+  meter.value(is_code ? 0 : kInfinite, 0, place, scale * stored, code);
+}
+
 /// Adds a colour without a reference (a winner's where no fragment wins): it differs only if not finite.
 inline void add_finite_color(Meter& meter, const Vec4<double>& color, const Place& place) {
   for (int c = 0; c < 4; ++c) meter.value(std::isfinite(color[c]) ? 0 : kInfinite, 0, place, color[c], 0);

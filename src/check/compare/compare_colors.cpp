@@ -225,9 +225,7 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
       } else {
         add_open_value(meter, v, place, least);
       }
-      const double code = std::clamp(std::round(scale * v), 0.0, scale);
-      const bool is_code = !codes || std::abs(scale * v - code) <= scale * 2 * u;
-      meter.value(is_code ? 0 : kInfinite, 0, {x, y, id, "no code", true}, scale * v, code);
+      meter_code(meter, scale, v, {x, y, id, "no code", true});
     }
     if (!shows_depth) return;
     const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);

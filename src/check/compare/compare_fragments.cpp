@@ -20,14 +20,18 @@ namespace plumbline::check {
 
 namespace {
 
-// `open(fragment)`: whether it is legal that the fragment is extra or missing.
+// `open(fragment)`: whether it is legal that the fragment is extra or missing. A triangle has a pixel once.
 Measurement covered_except(const Records<double>& candidate, const Records<double>& reference, auto open) {
   Meter meter("fragments");
+  const Covered* before = nullptr;  // the candidate's last fragment
   each_covered(candidate.covered, reference.covered, [&](const Covered& c, bool has, bool should) {
-    if (has != should && open(c)) {
+    const bool is_again = has && before != nullptr && draw_order(*before) == draw_order(c);
+    if (has) before = &c;
+    if (has != should && !is_again && open(c)) {
       meter.ambiguous();
     } else if (has != should) {
-      meter.value(1, 0, {c.x, c.y, static_cast<std::int64_t>(c.triangle), has ? "extra" : "lacking"}, has, should);
+      const char* field = is_again ? "twice" : has ? "extra" : "lacking";
+      meter.value(1, 0, {c.x, c.y, static_cast<std::int64_t>(c.triangle), field}, has, should);
     }
     meter.item();
   });

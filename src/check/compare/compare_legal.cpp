@@ -186,14 +186,16 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
   const double scale = color_scale(scene.frame.color);
   const bool codes = scale > 0;
   const StoredColors stored{conventions, scale};
-  const auto clear_depth = [&](Meter& meter, int x, int y) {
+  const auto codes_and_clear_depth = [&](Meter& meter, int x, int y) {
     meter_clear_depth(meter, scene, candidate, legal, x, y);
+    for (int c = 0; c < 4; ++c)
+      meter_code(meter, scale, candidate.color(x, y)[c], {x, y, winner_at(candidate, x, y), "no code", true});
     return false;
   };
   if (!legal.color_lo.empty()) {
     const double rounding = codes ? 0.5 / scale + 4 * u : u;
     return compare_planes(candidate.color, legal.color_lo, "bound", [&](Meter& meter, int x, int y) {
-      clear_depth(meter, x, y);
+      codes_and_clear_depth(meter, x, y);
       const glm::vec4 &color = candidate.color(x, y), &low = legal.color_lo(x, y), &high = legal.color_hi(x, y);
       for (int c = 0; c < 4; ++c) {
         if (!std::isfinite(low.x)) {
@@ -219,7 +221,7 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
     return distance_outside(z, a.z_lo, a.z_hi) / depth_step(scene.frame.depth, z) <= steps;
   };
   const ColorRule rule{.stored = stored, .factor = factor, .half_code = codes ? 0.5 / scale + 4 * u : 0};
-  return compare_legal_color(candidate.color, candidate, legal, rule, clear_depth, has_its_depth);
+  return compare_legal_color(candidate.color, candidate, legal, rule, codes_and_clear_depth, has_its_depth);
 }
 
 }  // namespace plumbline::check

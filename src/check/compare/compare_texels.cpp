@@ -85,6 +85,14 @@ TexelRange legal_texels_in_float(const Textured& of, double lod_lo, double lod_h
   return out;
 }
 
+// Whether a level of detail is a legal one beyond the texture's levels, clamped to these: its texel is then judged by
+// the legal one.
+bool is_clamped(const Texture* texture, double lod, const TexelRange& legal) {
+  if (texture == nullptr) return false;
+  const double last = static_cast<double>(texture->levels.size()) - 1 - texture->sampler.base_level;
+  return (lod == 0 && legal.lambda_lo < 0) || (lod == last && legal.lambda_hi > last);
+}
+
 // Adds what texels become that are rounded to the frame's codes (Conventions::fragment_colors), beyond [0,1] too: these
 // are clamped. Codes stay, but where they are rounded down or up: float may carry them over.
 void round_to_codes(const FrameFormat& frame, const Conventions& conventions, TexelRange& range) {
@@ -126,7 +134,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
     const Covered& c = candidate.covered[i];
     const Texel<double>&a = candidate.texels[i], &b = reference.texels[i];
     const Textured of = textured_fragment(draws, candidate, i);
-    const bool lacks_lod = is_foreign && std::isnan(a.lod);
+    const bool lacks_lod = is_foreign && (std::isnan(a.lod) || is_clamped(of.texture, a.lod, (*legal)[i]));
     const double unit = u * magnitudes.at(of.texture);
     TexelRange range;
     if (is_foreign) {

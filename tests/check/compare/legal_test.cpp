@@ -39,7 +39,13 @@ struct LegalAnswers : testing::Test {
     planes.count(kX, kY) = 2;
     planes.id(kX, kY) = id;
     planes.depth(kX, kY) = z;
-    planes.shaded(kX, kY) = planes.color(kX, kY) = color;
+    planes.shaded(kX, kY) = color;
+    planes.color(kX, kY) = stored(color);
+  }
+  // Nearest codes, in a frame of codes.
+  glm::vec4 stored(const glm::vec4& color) const {
+    const auto scale = static_cast<float>(color_scale(scene.frame.color));
+    return scale > 0 ? glm::round(color * scale) / scale : color;
   }
   Measurement count() const { return compare_legal_count(planes, legal); }
   Measurement winner() const { return compare_legal_winner(planes, legal); }
@@ -59,7 +65,7 @@ struct LegalAnswers : testing::Test {
 };
 
 TEST_F(LegalAnswers, LegalOnesPassAndAreCountedAsAmbiguous) {
-  scene.frame.color = ColorFormat::rgba32f;
+  scene.frame.color = ColorFormat::rgba32f, show(2, 0.25, {0.5, 0.25, 0.125, 1});
   for (const Measurement& m : all()) {
     EXPECT_TRUE(passes(m)) << m.unit;
     EXPECT_EQ(m.ambiguous, 1u) << m.unit;
@@ -142,7 +148,7 @@ TEST_F(LegalAnswers, WithoutWinnersAnyOfThemIsLegal) {
   for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(passes(m)) << m.unit;
   planes.depth(kX, kY) = 0.75;
   planes.shaded(kX, kY) = glm::vec4(1.5, 0.5, -0.5, 1);
-  planes.color(kX, kY) = glm::vec4(1, 0.5, 0, 1);
+  planes.color(kX, kY) = stored({1, 0.5, 0, 1});
   for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(passes(m)) << m.unit;
   planes.depth(kX, kY) = 0.5;
   planes.shaded(kX, kY) = planes.color(kX, kY) = glm::vec4(0.5, 0.5, 0.125, 1);  // green of one, the rest of the other
@@ -152,7 +158,7 @@ TEST_F(LegalAnswers, WithoutWinnersAnyOfThemIsLegal) {
   for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(fails(m)) << m.unit;
   EXPECT_EQ(depth().worst.reference, 0.25) << "the number that was expected";
   planes.depth(kX, kY) = 0.25;
-  planes.color(kX, kY) = glm::vec4(1, 0.5, 0, 1);
+  planes.color(kX, kY) = stored({1, 0.5, 0, 1});
   EXPECT_TRUE(passes(depth()));
   EXPECT_TRUE(fails(merge())) << "the depth of one, the colour of the other";
   planes.depth(kX, kY) = 0.75;
@@ -288,7 +294,7 @@ TEST_F(LegalAnswers, TheBackgroundHasNoBound) {
   planes.shaded(0, 2).b = NAN;
   EXPECT_TRUE(fails(shaded()));
   planes.shaded(0, 2).b = 0;
-  scene.frame.color = ColorFormat::rgba32f;
+  scene.frame.color = ColorFormat::rgba32f, show(2, 0.25, {0.5, 0.25, 0.125, 1});
   EXPECT_TRUE(fails(merge()));
   planes.color(0, 2).b = 0;
   EXPECT_TRUE(passes(merge()));
@@ -304,9 +310,10 @@ TEST_F(LegalAnswers, TheBackgroundHasNoBound) {
 TEST_F(LegalAnswers, CodesMayBeHalfACodeFarther) {
   const double bound = 0x1p-10 * 255;  // in codes
   for (const auto& [codes, holds] : {std::pair(bound + 0.499, true), std::pair(bound + 0.501, false)}) {
-    show(2, 0.25, {0.5f + static_cast<float>(codes / 255), 0.25, 0.125, 1});
+    legal.answers[8].color[0] = static_cast<float>((128 - codes) / 255);
     EXPECT_EQ(passes(merge()), holds) << codes;
   }
+  legal.answers[8].color[0] = 0.5;
   scene.frame.color = ColorFormat::rgba32f;
   show(2, 0.25, {0.5f + 0x1.1p-10f, 0.25, 0.125, 1});
   EXPECT_TRUE(fails(merge())) << "floats are not rounded";
@@ -316,12 +323,9 @@ TEST_F(LegalAnswers, CodesMayBeHalfACodeFarther) {
 TEST_F(LegalAnswers, CodesMayBeRoundedDownWhereThatIsDeclared) {
   Conventions down;
   down.color_rounding = Conventions::Rounding::down;
-  const double bound = 0x1p-10 * 255;  // in codes
-  const double exact = 0.5 * 255;
   for (const auto& [code, holds] : {std::pair(127.0, true), std::pair(128.0, false), std::pair(126.0, false)}) {
     show(2, 0.25, {static_cast<float>(code / 255), 63.0f / 255, 31.0f / 255, 1});
-    EXPECT_EQ(passes(compare_legal_merge(scene, planes, legal, 1, down)), holds)
-        << code << " " << exact << " " << bound;
+    EXPECT_EQ(passes(compare_legal_merge(scene, planes, legal, 1, down)), holds) << code;
   }
   show(2, 0.25, {127.0f / 255, 63.0f / 255, 31.0f / 255, 1});
   EXPECT_TRUE(fails(merge())) << "63.75 and 31.875 are nearer to the codes above";
@@ -360,11 +364,23 @@ TEST_F(LegalAnswers, CodesAreClampedFloatsAreNot) {
     scene.frame.color = codes;
     EXPECT_TRUE(fails(merge()));
   }
-  // Rounded to 8 bits in a frame of 12: as far as half of one in 255 off.
-  show(6, 0.75, {1, 0.5 + 0.4 / 255, 0, 1});
-  EXPECT_TRUE(fails(merge())) << "12 bits";
-  scene.frame.color = ColorFormat::rgba8;
-  EXPECT_TRUE(passes(merge()));
+  // Rounded to 8 bits: in a frame of 12 as far as half of one in 255 off.
+  for (const ColorFormat codes : {ColorFormat::rgba8, ColorFormat::rgba12}) {
+    scene.frame.color = codes;
+    show(6, 0.75, {1, 128.0f / 255, 0, 1});
+    EXPECT_EQ(passes(merge()), codes == ColorFormat::rgba8);
+  }
+}
+
+// A frame of codes that holds numbers between them was never rounded.
+TEST_F(LegalAnswers, ColoursOfAFrameOfCodesAreCodes) {
+  for (const bool by_ranges : {false, true}) {
+    if (by_ranges) legal.color_lo = legal.color_hi = planes.color;
+    EXPECT_TRUE(passes(merge()));
+    planes.color(kX, kY).g += 0.1f / 255;
+    EXPECT_TRUE(fails(merge()));
+    planes.color(kX, kY).g = 64.0f * (1.0f / 255);  // two roundings
+  }
 }
 
 TEST_F(LegalAnswers, WhatIsNoNumberFails) {

@@ -52,6 +52,15 @@ TEST_F(SharedEdgesTest, ADeclaredRuleMayGiveItToBothOrToNone) {
   EXPECT_TRUE(fails(in({0, 1})));
 }
 
+TEST_F(SharedEdgesTest, ATriangleHasAPixelOnce) {
+  Records<double> candidate, reference;
+  candidate.triangles = reference.triangles = {triangles[0]};
+  candidate.covered = {{0, 5, 5}};  // on its side, which no other shares
+  EXPECT_TRUE(passes(compare_covered_except_edges(candidate, reference, conventions)));
+  candidate.covered.push_back({0, 5, 5});
+  EXPECT_TRUE(fails(compare_covered_except_edges(candidate, reference, conventions)));
+}
+
 TEST_F(SharedEdgesTest, ASampleBesideItMayBeInBothOrInNone) {
   triangles[0].v[2].p_win.x = triangles[1].v[1].p_win.x = 10 + 0x1p-20;
   EXPECT_TRUE(passes(in({0, 1})));
