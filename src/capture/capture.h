@@ -58,10 +58,9 @@ struct Capture {
   std::set<std::string> derived;
   std::set<std::string> without_records;  ///< groups whose arrays a folder holds with 0 records, such as "window"
   SnappedBy snapped_by = SnappedBy::renderer;
-  std::size_t files_of_arrays = 0;        ///< number of files that a folder's manifest names
-  bool depth_in_float = false;            ///< planes.depth was read from f32: complete_records() finds the codes
-  bool fragment_depths_in_float = false;  ///< likewise depth.value
-  Legal legal;                            ///< an oracle's legal answers for each pixel
+  std::size_t files_of_arrays = 0;  ///< number of files that a folder's manifest names
+  bool depth_in_float = false;      ///< planes.depth was read from f32: complete_records() finds the codes
+  Legal legal;                      ///< an oracle's legal answers for each pixel
 };
 
 }  // namespace plumbline

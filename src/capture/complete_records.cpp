@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -58,18 +59,25 @@ Vec3<double> unit(const Vec3<double>& v) {
   return length > 0 ? v / length : v;
 }
 
-// Positions in eye space: by the matrices; NaN where these are lacking, as a renderer of one matrix has none.
+// Positions in eye space: by the matrices; NaN where these are lacking, as a renderer of one matrix has none. Of draws
+// with a position varying: those that fragments' are interpolated from, where they are shown.
 void derive_positions(const DrawIndex& draws, Records<double>& r) {
   const bool has_matrices = r.matrices.size() == draws.ranges().size() && r.vertices.size() == draws.vertices();
   if (!has_matrices) {
     for (Vertex<double>& v : r.vertices) v.p_eye = Vec4<double>(std::numeric_limits<double>::quiet_NaN());
     return;
   }
+  const std::vector<Vec4<double>>& carried = r.varyings[Varying::position].vertices;
   for (std::size_t d = 0; d < draws.ranges().size(); ++d) {
-    const Mesh& mesh = draws.scene().meshes[draws.scene().draws[d].mesh];
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-      r.vertices[draws.ranges()[d].first_vertex + v].p_eye =
-          r.matrices[d].model_view * Vec4<double>(Vec3<double>(mesh.positions[v]), 1);
+    const Draw& draw = draws.scene().draws[d];
+    const Mesh& mesh = draws.scene().meshes[draw.mesh];
+    const bool are_carried = carries(draws.scene(), draw, Varying::position) && carried.size() == draws.vertices();
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const std::size_t i = draws.ranges()[d].first_vertex + v;
+      Vec4<double>& p_eye = r.vertices[i].p_eye;
+      p_eye = r.matrices[d].model_view * Vec4<double>(Vec3<double>(mesh.positions[v]), 1);
+      if (are_carried) p_eye = Vec4<double>(Vec3<double>(carried[i]), p_eye.w);
+    }
   }
 }
 
@@ -215,14 +223,11 @@ void derive_window(const DrawIndex& draws, const Conventions& conventions, Captu
 // 8 roundings of 2^-24 are 1/32 of a code.
 double code_roundings(double codes) { return codes < 0x1p20 ? 0x1p-21 : 0x1p-50; }
 
-// Codes of depths that were read from f32, and mapped to [0,1] since. Depths that are not all floats of codes stay:
-// they are not rounded yet.
-void find_codes(double codes, std::vector<double>& depths) {
+// Codes of depths that were floats in `range` when they were read. Depths that are not all floats of codes stay: they
+// are not rounded yet.
+void find_codes(double codes, Conventions::DepthRange range, std::span<double> depths) {
   const auto code = [=](double z) { return std::nearbyint(z * codes) / codes; };
-  const auto is_float_of_code = [&](double z) {
-    const auto is_float = [](double v, double of) { return static_cast<float>(v) == static_cast<float>(of); };
-    return is_float(code(z), z) || is_float(1 - code(z), 1 - z) || is_float(2 * code(z) - 1, 2 * z - 1);
-  };
+  const auto is_float_of_code = [&](double z) { return rounded_in_range(range, code(z)) == z; };
   if (codes == 0 || !std::ranges::all_of(depths, is_float_of_code)) return;
   for (double& z : depths) z = code(z);
 }
@@ -297,7 +302,7 @@ struct ClearUnused {
 
 }  // namespace
 
-void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions) {
+void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions, Depths depths) {
   const DrawIndex draws(scene);
   Records<double>& r = capture.records;
   std::ranges::stable_sort(r.polygons.polygons, {}, &ClipPolygon::primitive);
@@ -315,16 +320,17 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   capture.derived.clear();
   const DepthFormat format = depth_format_of(scene.frame, conventions);
   const double codes = depth_scale(format);
+  if (depths == Depths::of_codes) find_codes(codes, conventions.depth_range, capture.planes.depth.values());
   for (double& z : capture.planes.depth.values()) {
     const double code = codes > 0 ? std::nearbyint(z * codes) / codes : z;
-    if (capture.depth_in_float || std::abs(z - code) <= code_roundings(codes)) z = code;
+    const bool is_float = capture.depth_in_float && depths == Depths::of_codes;
+    if (is_float || std::abs(z - code) <= code_roundings(codes)) z = code;
     // A buffer of doubles holds the float, and more.
     if (format == DepthFormat::z32f && std::abs(z) <= static_cast<double>(std::numeric_limits<float>::max()))
       z = static_cast<double>(static_cast<float>(z));
   }
-  if (capture.fragment_depths_in_float && conventions.depth_rounding == Conventions::Rounding::nearest)
-    find_codes(codes, r.depth);
-  capture.depth_in_float = capture.fragment_depths_in_float = false;
+  if (conventions.depth_rounding == Conventions::Rounding::nearest) find_codes(codes, conventions.depth_range, r.depth);
+  capture.depth_in_float = false;
 }
 
 }  // namespace plumbline

@@ -144,17 +144,36 @@ TEST(CompleteRecords, FillNormalsByTheMatrices) {
   }
 }
 
+// What fragments' positions are interpolated from is what the renderer has, with its roundings.
+TEST(CompleteRecords, TakeShownPositionsForThoseInEyeSpace) {
+  const Scene scene = suite_scene("phong/mirror_floor");
+  Capture capture = whole_capture(scene);
+  auto& shown = capture.records.varyings[Varying::position].vertices;
+  ASSERT_FALSE(shown.empty());
+  shown[0].z += 0x1p-18;
+  for (Vertex<double>& v : capture.records.vertices) v.p_eye = {};
+  capture.derived = {"vertex.p_eye"};
+  complete_records(scene, capture);
+  EXPECT_EQ(Vec3<double>(capture.records.vertices[0].p_eye), Vec3<double>(shown[0]));
+  EXPECT_EQ(capture.records.vertices[0].p_eye.w, 1);
+}
+
 TEST(CompleteRecords, TakeADepthInFloatForTheNearestCode) {
   const Scene scene = suite_scene("coverage/shared_edges");
   const Capture was = whole_capture(scene);
   Capture capture = was;
   for (double& z : capture.planes.depth.values()) z = static_cast<float>(z);
-  Capture as_it_is = capture;
-  complete_records(scene, as_it_is);
-  EXPECT_NE(as_it_is.planes.depth.values(), was.planes.depth.values()) << "in double, its codes are its own";
+  const auto completed = [&](Capture of, Depths depths = Depths::of_codes) {
+    complete_records(scene, of, {}, depths);
+    return of.planes.depth.values();
+  };
+  EXPECT_EQ(completed(capture), was.planes.depth.values()) << "floats of codes, in doubles";
+  EXPECT_EQ(completed(capture, Depths::raw), capture.planes.depth.values());
+  capture.planes.depth(0, 0) = 0.3f;
+  EXPECT_EQ(completed(capture), capture.planes.depth.values()) << "a float that is none of a code";
   capture.depth_in_float = true;
-  complete_records(scene, capture);
-  EXPECT_EQ(capture.planes.depth.values(), was.planes.depth.values());
+  EXPECT_NE(completed(capture), capture.planes.depth.values());
+  EXPECT_EQ(completed(capture, Depths::raw), capture.planes.depth.values());
 }
 
 // A renderer's buffer may hold doubles: what it declares is as fine.

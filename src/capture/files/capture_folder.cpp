@@ -206,7 +206,6 @@ class Reader {
     const auto taken = take(name);
     if (!taken) return;
     const JsonNode& array = *taken;
-    if (name == "depth.value" && is_narrow<T>(array)) capture_.fragment_depths_in_float = true;
     const std::vector<char> bytes = read_elements<T>(array, records.size() * kPerRecord<C>);
     if constexpr (std::is_same_v<T, bool>) {
       const auto odd = std::find_if(bytes.begin(), bytes.end(), [](char b) { return b != 0 && b != 1; });

@@ -260,8 +260,7 @@ class ProcessRenderer : public Renderer {
       }
       if (spec_.give && request.records.has(Stage::coverage)) spec_.give(scene, capture);
       to_dialect(spec_.conventions, capture);
-      if (spec_.raw_depth) capture.depth_in_float = false;
-      complete_records(scene, capture, spec_.conventions);
+      complete_records(scene, capture, spec_.conventions, spec_.raw_depth ? Depths::raw : Depths::of_codes);
       visit_capture(KeepOnly{request.records}, capture);
       capture.renderer = spec_.name;
       return capture;

@@ -43,8 +43,7 @@ Hash hash_of_capture(const Capture& capture) {
   Hasher hasher;
   hasher.add_text(capture.renderer);
   hasher.add_text(capture.version);
-  hasher.add_value(glm::ivec4(capture.width, capture.height, capture.depth_in_float ? 1 : 0,
-                              capture.fragment_depths_in_float ? 1 : 0));
+  hasher.add_value(glm::ivec3(capture.width, capture.height, capture.depth_in_float ? 1 : 0));
   hasher.add_value(glm::ivec1(static_cast<int>(capture.snapped_by)));
   for (const auto* names : {&capture.derived, &capture.without_records}) {
     hasher.add_value(glm::ivec1(static_cast<int>(names->size())));

@@ -123,7 +123,6 @@ TEST_F(KeptVerdicts, FallsByAnyBitOfTheCandidates) {
                                                    [](Capture& c) { c.renderer += "b"; },
                                                    [](Capture& c) { ++c.width; },
                                                    [](Capture& c) { c.depth_in_float = !c.depth_in_float; },
-                                                   [](Capture& c) { c.fragment_depths_in_float = true; },
                                                    [](Capture& c) { c.snapped_by = SnappedBy::conventions; },
                                                    [](Capture& c) { c.derived.insert("front"); },
                                                    [](Capture& c) { c.without_records.insert("window"); },
