@@ -124,12 +124,12 @@ void learn_levels(Prober& prober) {
   prober.found(words, name_of(c.level_of_detail), evidence);
 }
 
-// Texels of 0 and 255 by turns, at a level of detail of 1/4: the linear filter of magnification mixes them, the nearest
-// filter of minification does not.
+// A chequered texture of 0 and 255 at a level of detail of 1/4: the linear filter of magnification mixes texels, also
+// one whose weights along s and t change places; the nearest filter of minification does not.
 void learn_magnification(Prober& prober) {
   const ConventionWords words = words_of("magnified");
   const float most = std::exp2(0.25f);
-  Texture texture = texture_of(64, [](int x, int) { return x % 2 * 255; });
+  Texture texture = texture_of(64, [](int x, int y) { return (x + y) % 2 * 255; });
   texture.sampler.min = MinFilter::nearest_mipmap_nearest, texture.sampler.mag = MagFilter::linear;
   const Plane<glm::vec4> color = prober.draw(textured_frame("magnification", texture, most)).color;
   std::size_t mixed = 0, unmixed = 0;

@@ -120,6 +120,9 @@ double texels_off(Prober& prober, const std::string& name, int texels, auto code
   return most;
 }
 
+constexpr double kOfFourBits = 16;  // codes by which texels of four bits are off at most, truncated or replicated
+constexpr const char* kOtherTexels = ": others are taken, such as those of another row";
+
 // Texture of 4 x 4 unlike codes.
 int unlike_code(int x, int y) { return (x * 83 + y * 151 + 11) % 256; }
 
@@ -170,7 +173,6 @@ void learn_weights(Prober& prober) {
   if (most > 1.01 && highest <= 0.01) return prober.fits_none(words, evidence + ", all below: each mix is truncated");
   const double rounding = c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01;
   const bool are_float = most <= rounding;
-  constexpr double kOfFourBits = 16;    // codes by which texels of four bits are off at most, truncated or replicated
   constexpr double kOtherRounding = 1;  // code by which another rounding of colours may differ
   const auto unfiltered_off = [&] {
     try {
@@ -180,9 +182,8 @@ void learn_weights(Prober& prober) {
     }
   };
   if (const double off = are_float ? 0 : unfiltered_off(); off > rounding + kOtherRounding)
-    return prober.fits_none(words, fmt::format("{}; texels that are not filtered, {:.2f}: {}", evidence, off,
-                                               off <= kOfFourBits ? "they are kept in fewer bits"
-                                                                  : "others are taken, such as those of another row"));
+    return prober.fits_none(words, fmt::format("{}; texels that are not filtered, {:.2f}{}", evidence, off,
+                                               off <= kOfFourBits ? ": they are kept in fewer bits" : kOtherTexels));
   int bits = C::kFloat;
   if (!are_float) {
     const WeightErrors errors = weight_errors(prober);
@@ -210,6 +211,7 @@ void learn_fragment_colors(Prober& prober) {
   const double most = texels_off(prober, "fragment_colors", 16, code, {100, 110});
   const double rounding = c.color_rounding == C::Rounding::nearest ? 0.51 : 1.01;
   const std::string evidence = fmt::format("256 texels times a colour, {:.2f} codes off at most", most);
+  if (most > kOfFourBits) return prober.fits_none(words, evidence + kOtherTexels);
   if (!(most <= 2 * rounding)) return prober.fits_none(words, evidence);
   c.fragment_colors = most <= rounding ? C::ColorNumbers::in_float : C::ColorNumbers::in_codes;
   prober.found(words, name_of(c.fragment_colors), evidence);

@@ -97,6 +97,7 @@ TEST(LearnCourses, CodesOf12BitsAndOf256AreNamed) {
   EXPECT_TRUE(is_said(of_256, "256 c, truncated"));
   EXPECT_EQ(std::ranges::count(of_256.open, "texture_bits"), 0) << "a code off, the rest still shows";
   EXPECT_FALSE(is_said(learned_of_codes([](double c) { return std::round(255 * c); }), "color_rounding"));
+  EXPECT_TRUE(is_said(learned_of_codes([](double c) { return 255 * c; }), "768 of 768 numbers are no codes"));
 }
 
 TEST(LearnCourses, AGammaIsNamedAndNothingElseMistakenForIt) {

@@ -38,6 +38,8 @@ TEST(LearnTextures, TheEndOfMagnificationIsFound) {
   C expected = ours();
   expected.magnified = C::Magnified::up_to_zero;
   EXPECT_EQ(learned_by(test::magnified_up_to_zero), expected);
+  const auto exchanged = faults::named("texture.weights_exchanged").stages().texture;
+  EXPECT_EQ(learned_by(exchanged).magnified, C::Magnified::up_to_half) << "whatever the weights";
 }
 
 TEST(LearnTextures, LevelsHalfWayAreFound) {
