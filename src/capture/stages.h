@@ -47,6 +47,7 @@ class StageSet {
   constexpr void add(Stage s) { bits_ |= 1u << static_cast<unsigned>(s); }
   constexpr bool has(Stage s) const { return (bits_ >> static_cast<unsigned>(s) & 1u) != 0; }
   constexpr bool any() const { return bits_ != 0; }
+  constexpr bool operator==(const StageSet&) const = default;
 
  private:
   std::uint32_t bits_ = 0;

@@ -328,6 +328,17 @@ bool is_wrong_by_records_alone(const check::SceneVerdict& verdict) {
          std::ranges::none_of(verdict.comparisons, is_wrong_frame);
 }
 
+// Whether the stage made what it should of its own input: where another did not, later differences are consequences.
+bool is_right_by_itself(const check::SceneVerdict& verdict, Stage stage) {
+  bool holds = false;
+  for (const check::Comparison& row : verdict.comparisons) {
+    if (row.stage != stage || row.judge.kind != check::Kind::per_stage) continue;
+    if (check::is_failure(row.outcome)) return false;
+    holds = holds || row.outcome == check::Outcome::equal || row.outcome == check::Outcome::within;
+  }
+  return holds;
+}
+
 }  // namespace
 
 GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict) {
@@ -337,12 +348,13 @@ GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const che
                  legal_pixels(left.planes, verdict, Stage::merge),
                  legal_pixels(left.planes, verdict, Stage::depth)};
   out.has_alpha = true;
-  for (const Stage stage : kAllStages) {
-    if (stage >= Stage::merge) break;
-    if (renderer[stage].given || report::is_right(verdict, stage)) out.right.add(stage);
-  }
   for (const check::Comparison& row : verdict.comparisons) {
     if (row.judge.kind == check::Kind::per_stage && row.outcome == check::Outcome::different) out.wrong.add(row.stage);
+  }
+  for (const Stage stage : kAllStages) {
+    const bool is_right = stage < Stage::merge && report::is_right(verdict, stage);
+    const bool is_consequence = out.wrong.any() && is_right_by_itself(verdict, stage);
+    if (renderer[stage].given || is_right || is_consequence) out.right.add(stage);
   }
   return out;
 }

@@ -1,4 +1,5 @@
 // Misread states of the stages visibility and merge.
+#include <algorithm>
 
 #include "cli/likely/misread_state.h"
 
@@ -61,6 +62,14 @@ bool wraps_stencil(Draw& d) {
   return changed;
 }
 
+// The stencil op of a depth that fails is that of `other`.
+template <StencilOp StencilFace::*other>
+bool fails_depth_as(Draw& d) {
+  if (!d.stencil) return false;
+  const bool front = reset(d.stencil->front.depth_fail, d.stencil->front.*other);
+  return reset(d.stencil->back.depth_fail, d.stencil->back.*other) || front;
+}
+
 bool saturates_nothing(Draw& d) {
   using enum BlendFactor;
   return d.merge.blend && d.merge.blend->rgb.source == source_alpha_saturate &&
@@ -96,11 +105,12 @@ std::vector<MisreadState> states_of_merge() {
        of_draws([](Draw& d) { return reset(d.stencil); })},
       {"visibility", "stencil_back_ignored", "back faces have the front faces' stencil test",
        of_draws([](Draw& d) { return d.stencil && reset(d.stencil->back, d.stencil->front); })},
-      {"visibility", "depth_fail_as_fail", "depth_fail is taken for fail in stencil ops", of_draws([](Draw& d) {
-         if (!d.stencil) return false;
-         const bool front = reset(d.stencil->front.depth_fail, d.stencil->front.fail);
-         return reset(d.stencil->back.depth_fail, d.stencil->back.fail) || front;
-       })},
+      {"visibility", "depth_fail_as_fail", "depth_fail is taken for fail in stencil ops",
+       of_draws(fails_depth_as<&StencilFace::fail>)},
+      {"visibility", "depth_fail_as_pass", "depth_fail is taken for pass in stencil ops",
+       of_draws(fails_depth_as<&StencilFace::pass>)},
+      {"visibility", "draws_reversed", "the last draw is drawn first",
+       [](Scene& s) { return s.draws.size() > 1 && (std::ranges::reverse(s.draws), true); }},
       {"visibility", "stencil_wraps", "stencil values wrap where they should stop", of_draws(wraps_stencil)},
       {"visibility", "stencil_stays", "a draw without a stencil test has that of the draw before",
        stays<&Draw::stencil>()},

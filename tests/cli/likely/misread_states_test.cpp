@@ -122,6 +122,8 @@ const std::vector<Case> kStates = {{"matrices.depth_range_ignored", "depth_range
                                    {"visibility.stencil_ignored", "stencil/funcs"},
                                    {"visibility.stencil_back_ignored", "stencil/volume"},
                                    {"visibility.depth_fail_as_fail", "stencil/volume"},
+                                   {"visibility.depth_fail_as_pass", "stencil/volume"},
+                                   {"visibility.draws_reversed", "first_triangles/draw_order", "vertex"},
                                    {"visibility.stencil_stays", "stencil/set_and_unset"},
                                    {"visibility.stencil_wraps", "stencil/ops"},
                                    {"merge.blend_ignored", "frame/rgba16_blend"},
