@@ -14,6 +14,17 @@ namespace plumbline::check {
 
 double ComparedPrimitive::reach() const { return factor * u * corners.scale; }
 
+namespace {
+
+bool is_at_corner(const ClipVertex<double>& v, const Corners& corners, double most) {
+  return std::ranges::any_of(corners.p_clip, [&](const Vec4<double>& corner) {
+    const Vec4<double> off = glm::abs(v.p_clip - corner);
+    return std::max({off.x, off.y, off.z, off.w}) <= most;
+  });
+}
+
+}  // namespace
+
 void within_triangle(Meter& meter, const ClipVertex<double>& v, const ComparedPrimitive& primitive) {
   const Corners& corners = primitive.corners;
   const double factor = primitive.factor;
@@ -41,8 +52,8 @@ void within_rounding(Meter& meter, Vertices polygon, const ComparedPrimitive& pr
       const double to_edge = distance_from_edges(v, corners);
       if (planes < 2) meter.value(to_edge / u, factor, primitive.at("off its edge"), to_edge, 0);
     } else {
-      const bool corner = std::ranges::find(corners.p_clip, v.p_clip) != corners.p_clip.end();
-      meter.value(corner ? 0 : kInfinite, 0, primitive.at("cut"), 0, 1);
+      const bool is_copy = is_at_corner(v, corners, primitive.copies * u * corners.scale);
+      meter.value(is_copy ? 0 : kInfinite, 0, primitive.at("cut"), 0, 1);
     }
   }
 }
@@ -100,13 +111,6 @@ std::size_t turn_of(Vertices mine, Vertices theirs, const Corners& corners) {
     least = std::min(least, sum);
   }
   return best;
-}
-
-bool is_at_corner(const ClipVertex<double>& v, const Corners& corners, double most) {
-  return std::ranges::any_of(corners.p_clip, [&](const Vec4<double>& corner) {
-    const Vec4<double> off = glm::abs(v.p_clip - corner);
-    return std::max({off.x, off.y, off.z, off.w}) <= most;
-  });
 }
 
 // Vertices of both polygons that have counterparts: not those on planes whose cuts are open; where vertices coincide,

@@ -1,4 +1,7 @@
 // Vertices of the mesh in a renderer that keeps clip positions in another form, such as depths of [0,w].
+#include <span>
+
+#include "check/polygons/compare_polygon.h"
 #include "tests/check/polygons/polygons.h"
 
 namespace plumbline::check {
@@ -39,6 +42,26 @@ TEST_F(PolygonCopies, AtACornerMayBeCalledCut) {
   EXPECT_TRUE(fails(compare(moved(corner, 0, true), 0)));
   EXPECT_TRUE(fails(compare(moved(corner, 8.1, true), 4)));
   EXPECT_TRUE(fails(compare(moved(cuts(1).at(0), 0, false), 4)));
+}
+
+// A vertex that a renderer cut and moved no farther than a copy may be off counts as the corner.
+TEST(WithinRounding, HoldsAVertexThatIsNotCutToACopyOfACorner) {
+  ComparedPrimitive primitive;
+  primitive.corners.p_clip = {{{0, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, 0, 1}}};
+  primitive.corners.scale = primitive.corners.color_scale = 1, primitive.corners.planes = 6;
+  primitive.factor = 8;
+  const auto holds = [&](double steps, double copies) {
+    primitive.copies = copies;
+    const ClipVertex<double> v{{0.5 + steps * kU, 0, 0, 1}, Vec4<double>(0), false};
+    Meter meter("u");
+    within_rounding(meter, std::span(&v, 1), primitive);
+    meter.item();
+    return passes(meter.done());
+  };
+  EXPECT_TRUE(holds(0, 0));
+  EXPECT_FALSE(holds(1, 0));
+  EXPECT_TRUE(holds(3.9, 4));
+  EXPECT_FALSE(holds(4.1, 4));
 }
 
 }  // namespace
