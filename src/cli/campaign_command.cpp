@@ -288,8 +288,9 @@ void require_terms(const fs::path& journals, const std::string& terms) {
   std::ifstream in(file);
   const std::string its{std::istreambuf_iterator<char>(in), {}};
   if (its == terms + "\n") return;
-  throw std::invalid_argument(fmt::format("{}: expected a journal of this campaign ({}), found one of {}",
-                                          file.string(), terms, its.substr(0, its.find_last_not_of('\n') + 1)));
+  throw std::invalid_argument(fmt::format(
+      "{}: expected a journal of this campaign ({}), found one of {}: take another folder, or delete this one",
+      file.string(), terms, its.substr(0, its.find_last_not_of('\n') + 1)));
 }
 
 // Checks, before the work, that results.json and the findings can be written at its end.

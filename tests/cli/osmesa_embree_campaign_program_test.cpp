@@ -97,6 +97,7 @@ TEST_F(Campaign, OfAProgramThatWasChangedIsRefused) {
   const Outcome run = campaign("c", options);
   EXPECT_EQ(run.code, 2) << run.text;
   EXPECT_TRUE(run.says("expected a journal of this campaign")) << run.text;
+  EXPECT_TRUE(run.says("take another folder, or delete this one")) << run.text;
 }
 
 // A server that fails from its second scene on: by itself, each scene is drawn.
