@@ -43,8 +43,12 @@ bool is_opaque(const Scene& scene);
 
 /// How colours of vertices are interpolated.
 inline Conventions::Interpolation interpolation_of_colors(const Conventions& conventions) {
-  return conventions.color_interpolation == Conventions::ColorInterpolation::affine ? Conventions::Interpolation::affine
-                                                                                    : conventions.interpolation;
+  switch (conventions.color_interpolation) {
+    case Conventions::ColorInterpolation::as_others: break;
+    case Conventions::ColorInterpolation::affine: return Conventions::Interpolation::affine;
+    case Conventions::ColorInterpolation::perspective: return Conventions::Interpolation::perspective;
+  }
+  return conventions.interpolation;
 }
 
 /// Whether colours of vertices are codes of the frame's format before they are interpolated, and again where a triangle

@@ -34,7 +34,7 @@ struct Conventions {
   enum class ClipDepth { minus_w_to_w, zero_to_w };
   enum class DepthPlanes { cut, clamped };
   enum class Interpolation { perspective, affine };
-  enum class ColorInterpolation { as_others, affine };
+  enum class ColorInterpolation { as_others, affine, perspective };
   enum class Corners { as_they_are, snapped };
   enum class DepthCorners { either, as_they_are, snapped };
   enum class Provoking { last, first };
@@ -129,7 +129,7 @@ inline constexpr std::array<Name, 2> kNamesOf<Conventions::DepthPlanes> = {"cut"
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Interpolation> = {"perspective", "affine"};
 template <>
-inline constexpr std::array<Name, 2> kNamesOf<Conventions::ColorInterpolation> = {"as_others", "affine"};
+inline constexpr std::array<Name, 3> kNamesOf<Conventions::ColorInterpolation> = {"as_others", "affine", "perspective"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Corners> = {"as_they_are", "snapped"};
 template <>

@@ -185,10 +185,10 @@ void learn_interpolation(Prober& prober) {
     c.interpolation = others.value;
     prober.found(words, name_of(c.interpolation), fmt::format("{} of {} pixels", others.pixels, kFrameSize));
   }
-  if (colors.value == C::Interpolation::affine && c.interpolation == C::Interpolation::perspective)
-    c.color_interpolation = C::ColorInterpolation::affine;
-  else if (colors.value != c.interpolation)
-    prober.unexplained("texture coordinates are interpolated without perspective, colours with it");
+  if (colors.value != c.interpolation) {
+    c.color_interpolation =
+        colors.value == C::Interpolation::affine ? C::ColorInterpolation::affine : C::ColorInterpolation::perspective;
+  }
   prober.found(of_colors, name_of(c.color_interpolation), evidence);
 }
 

@@ -113,6 +113,9 @@ TEST(LearnInterpolation, ColoursAloneMayBeAffine) {
   C expected = ours();
   expected.color_interpolation = C::ColorInterpolation::affine;
   EXPECT_EQ(learned(test::make_affine_colors()), expected);
+  const C found = learned(test::make_affine_colors<false>());
+  EXPECT_EQ(found.interpolation, C::Interpolation::affine);
+  EXPECT_EQ(found.color_interpolation, C::ColorInterpolation::perspective);
 }
 
 // Affine colours of a renderer that draws no texture leave other attributes open.

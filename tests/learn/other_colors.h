@@ -82,17 +82,20 @@ std::unique_ptr<Renderer> make_vertices_in_codes() {
   return pipeline::make_pipeline(stages);
 }
 
-/// `color_interpolation` affine: stage attributes takes every w for 1 where it interpolates colours.
-inline pipeline::Color<float> affine_colors(const pipeline::TriangleSetup& t, const pipeline::AttributeSetup& of,
-                                            const pipeline::Pixels<float>& at) {
+/// Stage attributes that takes every w for 1 where it interpolates colours, or all but colours.
+template <bool of_colors>
+pipeline::Color<float> affine_in_part(const pipeline::TriangleSetup& t, const pipeline::AttributeSetup& of,
+                                      const pipeline::Pixels<float>& at) {
   static const auto kRight = pipeline::production_stages().attributes;
-  if (&of != t.attributes.data()) return kRight(t, of, at);
+  if ((&of == t.attributes.data()) != of_colors) return kRight(t, of, at);
   const pipeline::PerspectiveSetup none = pipeline::perspective_setup({1, 1, 1}, t.planes, t.perspective.in_blocks);
   return pipeline::mean<float>(of, pipeline::weights<float>(none, pipeline::from_anchor<float>(t.planes, at)));
 }
-inline std::unique_ptr<Renderer> make_affine_colors() {
+/// `color_interpolation` affine; of_colors false: `interpolation` affine, `color_interpolation` perspective.
+template <bool of_colors = true>
+std::unique_ptr<Renderer> make_affine_colors() {
   pipeline::Stages stages = pipeline::production_stages();
-  stages.attributes = affine_colors;
+  stages.attributes = affine_in_part<of_colors>;
   return pipeline::make_pipeline(stages);
 }
 

@@ -142,8 +142,9 @@ TEST(StrangersFog, LinearFactorsMayBeClampedBeforeOrAfterTheyAreInterpolated) {
 
 // Colours without perspective under a texture with it.
 TEST(StrangersColors, AloneMayBeAffineWhereThatIsDeclared) {
-  C colors, all;
+  C colors, all, others;
   colors.color_interpolation = C::ColorInterpolation::affine, all.interpolation = C::Interpolation::affine;
+  others.interpolation = C::Interpolation::affine, others.color_interpolation = C::ColorInterpolation::perspective;
   Scene scene = test::narrow_floor();
   scene.draws[0].texture->environment = TextureEnvironment::modulate;
   scene.meshes[0].colors = {{1, 0.2f, 0.2f, 1}, {1, 0.2f, 0.2f, 1}, {0.2f, 1, 1, 1}, {0.2f, 1, 1, 1}};
@@ -151,6 +152,9 @@ TEST(StrangersColors, AloneMayBeAffineWhereThatIsDeclared) {
   EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_affine_colors(), C())));
   EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_affine_colors(), all)));
   EXPECT_TRUE(is_wrong(verdict_of(scene, pipeline::make_pipeline(), colors)));
+  EXPECT_TRUE(is_right(verdict_of(scene, test::make_affine_colors<false>(), others)));
+  EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_affine_colors<false>(), all)));
+  EXPECT_TRUE(is_wrong(verdict_of(scene, test::make_affine_colors(), others)));
 }
 
 TEST(StrangersColors, OfVerticesMayBeCodesWhereThatIsDeclared) {

@@ -139,7 +139,7 @@ TEST(StrangersRecords, ColorsAloneMayBeAffine) {
   Scene scene = test::narrow_floor();
   scene.meshes[0].colors = {{1, 0.2f, 0.2f, 1}, {1, 0.2f, 0.2f, 1}, {0.2f, 1, 1, 1}, {0.2f, 1, 1, 1}};
   pipeline::Stages stages = pipeline::production_stages();
-  stages.attributes = test::affine_colors;
+  stages.attributes = test::affine_in_part<true>;
   const auto is_held = [&](const pipeline::Stages& drawn, const C& conventions) {
     const Comparison row = row_of_stage(scene, records_of(scene, drawn), Stage::attributes, conventions);
     EXPECT_TRUE(was_compared(row));
