@@ -119,7 +119,7 @@ inline double distance_outside(double value, double low, double high) {
 /// Adds a stored number that differs if it is no code of 0 to `scale`, to two roundings of float; scale 0: any number.
 inline void meter_code(Meter& meter, double scale, double stored, const Place& place) {
   const double code = std::clamp(std::round(scale * stored), 0.0, scale);
-  const bool is_code = scale == 0 || std::abs(scale * stored - code) <= scale * 2 * u;
+  const bool is_code = scale == 0 || std::abs(scale * stored - code) <= scale * 2 * kFloatRounding;
   meter.value(is_code ? 0 : kInfinite, 0, place, scale * stored, code);
 }
 
