@@ -184,7 +184,7 @@ struct InPerspective {
   std::size_t pixels = 0, by_z = 0, by_inv_w = 0;
 };
 
-// Draws the view's triangle, and counts.
+// Counts of the view's triangle, which is drawn.
 void count_in_perspective(Prober& prober, const View& view, C::DepthArithmetic arithmetic, InPerspective& out) {
   constexpr std::array places = {glm::dvec2(3, 5), glm::dvec2(59, 12), glm::dvec2(21, 58)};
   const C& c = prober.learned.conventions;

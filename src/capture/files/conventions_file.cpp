@@ -59,7 +59,7 @@ Conventions read_conventions(const std::filesystem::path& path) {
   each_number_of_bits([&](const ConventionWords& words, auto member) {
     if (const auto node = root.find(words.name)) out.*member = bits_at(*node);
   });
-  // Of a renderer that does not snap: the words that say how it snaps.
+  // Words that say how a renderer snaps are refused where it does not.
   for (const auto& [key, word] : {std::pair("attribute_corners", "snapped"), std::pair("depth_corners", "snapped"),
                                   std::pair("subpixel_rounding", "down"), std::pair("subpixel_rounding", "up")}) {
     const auto node = root.find(key);

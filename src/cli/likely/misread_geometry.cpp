@@ -30,7 +30,7 @@ bool smooth_as_flat(Scene& scene) {
   })(scene);
 }
 
-// Loses the last triangle of each mesh of several.
+// Mesh of several triangles without its last one.
 bool loses_last_triangle(Mesh& mesh) {
   if (mesh.topology != Topology::triangles || mesh.triangles.size() < 2) return false;
   mesh.triangles.pop_back();

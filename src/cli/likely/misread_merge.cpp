@@ -13,7 +13,7 @@ bool reset_equation(Draw& draw) {
   return reset(draw.merge.blend->alpha.equation, BlendEquation::add) || rgb;
 }
 
-// Exchanges source - destination and destination - source.
+// Subtraction the other way: source - destination for destination - source.
 constexpr auto kSubtractsTheOtherWay = [](Draw& d) {
   using enum BlendEquation;
   if (!d.merge.blend) return false;

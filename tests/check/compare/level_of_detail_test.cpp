@@ -28,5 +28,30 @@ TEST(CompareTexels, BoundsTheLevelOfASlopeThatIsRoundingAlone) {
   EXPECT_EQ(differing(level, -7.9), 1u);
 }
 
+// Two fragments, the first of which has a legal level of detail and hands out another.
+TEST(CompareTexels, ALevelMayBeClampedToTheTexturesLevels) {
+  Scene scene = two_draws();
+  set_levels(scene.textures.emplace_back(), make_noise(16, 16, 1));
+  scene.draws[0].texture = DrawTexture{};
+  const double last = static_cast<double>(scene.textures[0].levels.size()) - 1;
+  const Vec4<double> texel(0.5, 0.25, 1, 1);
+  const auto differing = [&](double exact, double handed, double red = 0.5) {
+    Records<double> mine, theirs;
+    mine.triangles.resize(1);
+    mine.covered = {{0, 1, 2}};
+    mine.texels = {{{red, 0.25, 1, 1}, handed}};
+    theirs.texels = {{texel, exact}};
+    std::vector<TexelRange> legal(1);
+    legal[0].lo = legal[0].hi = texel;
+    legal[0].lambda_lo = legal[0].lambda_hi = exact;
+    return compare_texels(scene, mine, theirs, 3, &legal).differing;
+  };
+  EXPECT_EQ(differing(-2.6, 0), 0u);
+  EXPECT_EQ(differing(last + 2, last), 0u);
+  EXPECT_EQ(differing(-2.6, 0, 0.6), 1u) << "its texel is the legal level's";
+  EXPECT_EQ(differing(-2.6, last), 1u);
+  EXPECT_EQ(differing(0.25, 0), 1u);
+}
+
 }  // namespace
 }  // namespace plumbline::check

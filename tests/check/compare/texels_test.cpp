@@ -91,33 +91,6 @@ TEST(CompareTexels, WithoutALevelOfDetailAreHeldToAllLegalOnes) {
   EXPECT_EQ(compare_texels(two.scene, two.mine, two.theirs, 3).differing, 1u) << "whoever hands one out has to";
 }
 
-TEST(CompareTexels, ALevelMayBeClampedToTheTexturesLevels) {
-  Two two = equal_texels();
-  two.scene.textures[0] = noise(MinFilter::linear_mipmap_linear);
-  const double last = static_cast<double>(two.scene.textures[0].levels.size()) - 1;
-  two.scene.draws.resize(1);
-  two.scene.draws[0].texture = DrawTexture{};
-  two.scene.meshes.resize(1);
-  two.scene.meshes[0].triangles.resize(1);
-  two.mine.triangles.resize(1);
-  std::vector<TexelRange> legal(2);
-  const auto differing = [&](double exact, double handed, double red = 0.5) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      legal[i].lo = legal[i].hi = two.theirs.texels[i].color;
-      legal[i].lambda_lo = legal[i].lambda_hi = i == 0 ? exact : 0.5;
-    }
-    two.mine.texels[0] = {{red, 0.25, 1, 1}, handed};
-    two.mine.texels[1].lod = std::numeric_limits<double>::quiet_NaN();
-    two.theirs.texels[0].lod = exact;
-    return compare_texels(two.scene, two.mine, two.theirs, 3, &legal).differing;
-  };
-  EXPECT_EQ(differing(-2.6, 0), 0u);
-  EXPECT_EQ(differing(last + 2, last), 0u);
-  EXPECT_EQ(differing(-2.6, 0, 0.6), 1u) << "its texel is the legal level's";
-  EXPECT_EQ(differing(-2.6, last), 1u);
-  EXPECT_EQ(differing(0.25, 0), 1u);
-}
-
 TEST(TexelBound, HoldsWhereverThePlaceMayBe) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-2, 2), level(-1, 3), share(-1, 1);
