@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/by_conventions.h"
+#include "capture/fragment_outcomes.h"
 #include "capture/seen_as.h"
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
