@@ -59,8 +59,18 @@ Vec3<double> unit(const Vec3<double>& v) {
   return length > 0 ? v / length : v;
 }
 
+// Whether a difference of positions is within 8 u of the terms of m p, as stage vertex allows.
+bool is_of_roundings(const Vec3<double>& apart, const Mat4<double>& m, const Vec4<double>& p) {
+  Vec4<double> terms(0);
+  for (int column = 0; column < 4; ++column) terms += glm::abs(m[column] * p[column]);
+  for (int k = 0; k < 3; ++k) {
+    if (!(std::abs(apart[k]) <= 8 * 0x1p-24 * terms[k])) return false;
+  }
+  return true;
+}
+
 // Positions in eye space: by the matrices; NaN where these are lacking, as a renderer of one matrix has none. Of draws
-// with a position varying: those that fragments' are interpolated from, where they are shown.
+// with a position varying: that of vertices, where it is shown and rounding alone tells it from the matrices'.
 void derive_positions(const DrawIndex& draws, Records<double>& r) {
   const bool has_matrices = r.matrices.size() == draws.ranges().size() && r.vertices.size() == draws.vertices();
   if (!has_matrices) {
@@ -74,9 +84,11 @@ void derive_positions(const DrawIndex& draws, Records<double>& r) {
     const bool are_carried = carries(draws.scene(), draw, Varying::position) && carried.size() == draws.vertices();
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       const std::size_t i = draws.ranges()[d].first_vertex + v;
+      const Vec4<double> p_model(Vec3<double>(mesh.positions[v]), 1);
       Vec4<double>& p_eye = r.vertices[i].p_eye;
-      p_eye = r.matrices[d].model_view * Vec4<double>(Vec3<double>(mesh.positions[v]), 1);
-      if (are_carried) p_eye = Vec4<double>(Vec3<double>(carried[i]), p_eye.w);
+      p_eye = r.matrices[d].model_view * p_model;
+      if (are_carried && is_of_roundings(Vec3<double>(carried[i] - p_eye), r.matrices[d].model_view, p_model))
+        p_eye = Vec4<double>(Vec3<double>(carried[i]), p_eye.w);
     }
   }
 }
@@ -320,7 +332,11 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   capture.derived.clear();
   const DepthFormat format = depth_format_of(scene.frame, conventions);
   const double codes = depth_scale(format);
-  if (depths == Depths::of_codes) find_codes(codes, conventions.depth_range, capture.planes.depth.values());
+  if (depths == Depths::of_codes) {
+    find_codes(codes, conventions.depth_range, capture.planes.depth.values());
+    if (conventions.depth_rounding == Conventions::Rounding::nearest)
+      find_codes(codes, conventions.depth_range, r.depth);
+  }
   for (double& z : capture.planes.depth.values()) {
     const double code = codes > 0 ? std::nearbyint(z * codes) / codes : z;
     const bool is_float = capture.depth_in_float && depths == Depths::of_codes;
@@ -329,7 +345,6 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
     if (format == DepthFormat::z32f && std::abs(z) <= static_cast<double>(std::numeric_limits<float>::max()))
       z = static_cast<double>(static_cast<float>(z));
   }
-  if (conventions.depth_rounding == Conventions::Rounding::nearest) find_codes(codes, conventions.depth_range, r.depth);
   capture.depth_in_float = false;
 }
 

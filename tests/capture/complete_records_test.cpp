@@ -144,7 +144,7 @@ TEST(CompleteRecords, FillNormalsByTheMatrices) {
   }
 }
 
-// What fragments' positions are interpolated from is what the renderer has, with its roundings.
+// Positions that fragments' are interpolated from are the renderer's own, with its roundings. A wrong one is none.
 TEST(CompleteRecords, TakeShownPositionsForThoseInEyeSpace) {
   const Scene scene = suite_scene("phong/mirror_floor");
   Capture capture = whole_capture(scene);
@@ -156,6 +156,10 @@ TEST(CompleteRecords, TakeShownPositionsForThoseInEyeSpace) {
   complete_records(scene, capture);
   EXPECT_EQ(Vec3<double>(capture.records.vertices[0].p_eye), Vec3<double>(shown[0]));
   EXPECT_EQ(capture.records.vertices[0].p_eye.w, 1);
+  shown[0].z += 1e-3;
+  capture.derived = {"vertex.p_eye"};
+  complete_records(scene, capture);
+  EXPECT_LT(std::abs(capture.records.vertices[0].p_eye.z - shown[0].z + 1e-3), 1e-4) << "light's mistake";
 }
 
 TEST(CompleteRecords, TakeADepthInFloatForTheNearestCode) {
@@ -173,6 +177,10 @@ TEST(CompleteRecords, TakeADepthInFloatForTheNearestCode) {
   EXPECT_EQ(completed(capture), capture.planes.depth.values()) << "a float that is none of a code";
   capture.depth_in_float = true;
   EXPECT_NE(completed(capture), capture.planes.depth.values());
+  capture.depth_in_float = false;
+  std::ranges::fill(capture.planes.depth.values(), static_cast<double>(0.7f));
+  EXPECT_EQ(completed(capture)[0], std::nearbyint(static_cast<double>(0.7f) * 16777215) / 16777215);
+  capture.depth_in_float = true;
   EXPECT_EQ(completed(capture, Depths::raw), capture.planes.depth.values());
 }
 

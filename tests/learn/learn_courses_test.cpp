@@ -97,7 +97,19 @@ TEST(LearnCourses, CodesOf12BitsAndOf256AreNamed) {
   EXPECT_TRUE(is_said(of_256, "256 c, truncated"));
   EXPECT_EQ(std::ranges::count(of_256.open, "texture_bits"), 0) << "a code off, the rest still shows";
   EXPECT_FALSE(is_said(learned_of_codes([](double c) { return std::round(255 * c); }), "color_rounding"));
-  EXPECT_TRUE(is_said(learned_of_codes([](double c) { return 255 * c; }), "768 of 768 numbers are no codes"));
+}
+
+// Colours that are not rounded, encoded by a gamma besides, or of 10 bits say nothing of blending, nor of texels.
+TEST(LearnCourses, NumbersThatAreNoCodesAreOneFinding) {
+  for (const auto code_of : {+[](double c) { return 255 * c; }, +[](double c) { return 255 * std::pow(c, 1 / 2.2); },
+                             +[](double c) { return 255 * std::round(1023 * c) / 1023; }}) {
+    const C found = learned_of_codes(code_of);
+    EXPECT_TRUE(is_said(found, "numbers are no codes of 8 bits"));
+    for (const char* name : {"color_rounding", "blending", "texture_bits", "fragment_colors"}) {
+      EXPECT_EQ(std::ranges::count(found.open, name), 1) << name;
+      EXPECT_EQ(is_said(found, name), std::string_view(name) == "color_rounding");
+    }
+  }
 }
 
 TEST(LearnCourses, AGammaIsNamedAndNothingElseMistakenForIt) {

@@ -186,10 +186,14 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
   const double scale = color_scale(scene.frame.color);
   const bool codes = scale > 0;
   const StoredColors stored{conventions, scale};
+  constexpr double kOf16Bits = 65535;  // codes that OpenGL gives where 12 bits are asked for
   const auto codes_and_clear_depth = [&](Meter& meter, int x, int y) {
     meter_clear_depth(meter, scene, candidate, legal, x, y);
-    for (int c = 0; c < 4; ++c)
-      meter_code(meter, scale, candidate.color(x, y)[c], {x, y, winner_at(candidate, x, y), "no code", true});
+    for (int c = 0; c < 4; ++c) {
+      const double v = candidate.color(x, y)[c];
+      if (scene.frame.color == ColorFormat::rgba12 && is_stored_code(kOf16Bits, v)) continue;
+      meter_code(meter, scale, v, {x, y, winner_at(candidate, x, y), "no code", true});
+    }
     return false;
   };
   if (!legal.color_lo.empty()) {

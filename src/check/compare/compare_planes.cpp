@@ -46,7 +46,7 @@ namespace {
 // Depths that another renderer's frame may hold where the winner writes no depth (depth_mask off): values of the
 // fragment that left the candidate's depth and, where a depth test is open (open_pixels.h), of fragments that tie with
 // it; also the clear depth, if that ties. With a stencil test at such a pixel, whose outcome depends on earlier
-// fragments, every depth counts as tied.
+// fragments, every fragment counts as tied.
 class DepthsBeneath {
  public:
   DepthsBeneath(const Scene& scene, const Capture& candidate, const DrawIndex& draws)
@@ -77,19 +77,20 @@ class DepthsBeneath {
     if (!left && z == static_cast<double>(scene_.frame.clear_depth)) left = Values{{z}, 0};  // nothing was drawn
     if (!left) return;
     const auto of_left = std::ranges::minmax(left->depths);
-    const auto is_tied = [&](const Values& of) {
+    const auto is_near = [&](const Values& of) {
       const double reach = factor * u * (left->bound + of.bound) + depth_step(scene_.frame.depth, z);
       const auto [low, high] = std::ranges::minmax(of.depths);
-      return open_(x, y) != 0 && (by_stencil || (low <= of_left.max + reach && high >= of_left.min - reach));
+      return low <= of_left.max + reach && high >= of_left.min - reach;
     };
+    const bool is_open = open_(x, y) != 0;
     fragments_.each(x, y, [&](std::size_t i) {
       if (!leaves(i)) return;
       const Values of = values(i, x, y);
-      if (records_.depth[i] != z && !is_tied(of)) return;
+      if (records_.depth[i] != z && !(is_open && (by_stencil || is_near(of)))) return;
       for (const double depth : of.depths) visit(depth - z, of.bound);
     });
     const double cleared = scene_.frame.clear_depth;
-    if (is_tied({{cleared}, 0})) visit(cleared - z, 0);
+    if (is_open && is_near({{cleared}, 0})) visit(cleared - z, 0);
   }
 
  private:

@@ -85,11 +85,12 @@ TexelRange legal_texels_in_float(const Textured& of, double lod_lo, double lod_h
   return out;
 }
 
-// Whether a level of detail is a legal one beyond the texture's levels, clamped to these: its texel is then judged by
-// the legal one.
+// Whether a level of detail is a legal one clamped to [0, q] (OpenGL 2.1, 3.8.8), the sampler's levels: its texel is
+// then judged by the legal one.
 bool is_clamped(const Texture* texture, double lod, const TexelRange& legal) {
   if (texture == nullptr) return false;
-  const double last = static_cast<double>(texture->levels.size()) - 1 - texture->sampler.base_level;
+  const int largest = static_cast<int>(texture->levels.size()) - 1;
+  const int last = std::min(largest, texture->sampler.max_level) - texture->sampler.base_level;
   return (lod == 0 && legal.lambda_lo < 0) || (lod == last && legal.lambda_hi > last);
 }
 

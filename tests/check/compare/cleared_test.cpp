@@ -67,5 +67,23 @@ TEST_F(ClearedFrame, WhereNoWinnersAreShownEachPixelMayBeAFragments) {
   EXPECT_FALSE(passes(merged(kCleared, 101, down())));
 }
 
+// A frame that asks for 12 bits, drawn in 16, as OpenGL does. Numbers between codes of 16 bits are none.
+TEST_F(PlanePairs, CodesOf16BitsMayStandWhere12AreAskedFor) {
+  capture.planes.id = {};
+  allow(0, 0, {kBackground});
+  const auto holds = [&](ColorFormat asked, float red) {
+    scene.frame.color = asked;
+    capture.planes.color = Plane<glm::vec4>(kWidth, kHeight, glm::vec4(red, 0, 0, 1));
+    for (LegalAnswer& answer : legal.answers) answer.z_lo = answer.z_hi = 1, answer.color = {red, 0, 0, 1};
+    capture.planes.depth = Plane<double>(kWidth, kHeight, 1);
+    return passes(compare_legal_merge(scene, capture.planes, legal, 1));
+  };
+  const float of_16_bits = 1000.0f / 65535, between = 1000.5f / 65535;
+  EXPECT_TRUE(holds(ColorFormat::rgba12, of_16_bits));
+  EXPECT_TRUE(holds(ColorFormat::rgba16, of_16_bits));
+  EXPECT_FALSE(holds(ColorFormat::rgba8, of_16_bits));
+  EXPECT_FALSE(holds(ColorFormat::rgba12, between));
+}
+
 }  // namespace
 }  // namespace plumbline::check

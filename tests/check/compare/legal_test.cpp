@@ -379,7 +379,7 @@ TEST_F(LegalAnswers, ColoursOfAFrameOfCodesAreCodes) {
     EXPECT_TRUE(passes(merge()));
     planes.color(kX, kY).g += 0.1f / 255;
     EXPECT_TRUE(fails(merge()));
-    planes.color(kX, kY).g = 64.0f * (1.0f / 255);  // two roundings
+    planes.color(kX, kY).g = 64.0f * 0.00392157f;  // a literal for 1/255
   }
 }
 

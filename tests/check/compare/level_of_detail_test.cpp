@@ -51,6 +51,10 @@ TEST(CompareTexels, ALevelMayBeClampedToTheTexturesLevels) {
   EXPECT_EQ(differing(-2.6, 0, 0.6), 1u) << "its texel is the legal level's";
   EXPECT_EQ(differing(-2.6, last), 1u);
   EXPECT_EQ(differing(0.25, 0), 1u);
+  scene.textures[0].sampler.base_level = 1, scene.textures[0].sampler.max_level = 3;  // q = 2
+  EXPECT_EQ(differing(last + 2, 2), 0u);
+  EXPECT_EQ(differing(last + 2, last), 1u) << "a level that the sampler does not reach";
+  EXPECT_EQ(differing(last + 2, last - 1), 1u);
 }
 
 }  // namespace
