@@ -11,22 +11,23 @@
 
 namespace plumbline::math {
 
-/// Fog factor f, in [0,1], at the distance c = |z_eye|, with its error where z_eye has an error of dz. The error, for
-/// density d, is |dz| / |end - start| (linear), d f dz (exp) or d (2 d c + d dz) f dz (exp2), f at the least distance
-/// possible; plus the roundings of the exponential's argument, an absolute error because x exp(-x) <= 1/e.
-inline Bounded fog_factor(const Fog& fog, Bounded z_eye, const Roundings& roundings) {
-  const double c = std::abs(z_eye.value), dz = z_eye.error, density = fog.density, x = density * c;
+/// Fog factor f, in [0,1], at the distance c = |distance| [eye units]: z_eye, or the length of p_eye. Error of f for a
+/// distance that errs by dc, at the density d: dc / |end - start| (linear), d f dc (exp) or d (2 d c + d dc) f dc
+/// (exp2), f at the least distance possible; plus the roundings of the exponential's argument, an absolute error
+/// because x exp(-x) <= 1/e.
+inline Bounded fog_factor(const Fog& fog, Bounded distance, const Roundings& roundings) {
+  const double c = std::abs(distance.value), dc = distance.error, density = fog.density, x = density * c;
   const double start = fog.start, end = fog.end, range = std::abs(end - start);
   switch (fog.mode) {
     case Fog::Mode::linear:
-      return {std::clamp((end - c) / (end - start), 0.0, 1.0), dz / range + roundings((std::abs(end) + c) / range)};
+      return {std::clamp((end - c) / (end - start), 0.0, 1.0), dc / range + roundings((std::abs(end) + c) / range)};
     case Fog::Mode::exp: {
-      const double f = std::exp(-std::max(x - density * dz, 0.0));
-      return {std::exp(-x), f * density * dz + roundings(f * (1 + x))};
+      const double f = std::exp(-std::max(x - density * dc, 0.0));
+      return {std::exp(-x), f * density * dc + roundings(f * (1 + x))};
     }
     case Fog::Mode::exp2: {
-      const double near = std::max(x - density * dz, 0.0), f = std::exp(-near * near);
-      return {std::exp(-x * x), f * (2 * x + density * dz) * density * dz + roundings(f * (1 + 2 * x * x))};
+      const double near = std::max(x - density * dc, 0.0), f = std::exp(-near * near);
+      return {std::exp(-x * x), f * (2 * x + density * dc) * density * dc + roundings(f * (1 + 2 * x * x))};
     }
   }
   return {1, 0};

@@ -83,6 +83,20 @@ double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corn
   return out;
 }
 
+constexpr double kThree = std::numbers::sqrt3;  // length of a vector of three components of 1
+
+/// Length of a vector. Three squares, two sums and a root round by at most 4 u.
+Bounded length_of(const BoundedVector& a) {
+  const double length = glm::length(a.v);
+  return {length, a.error + 4 * kFloatRounding * length};
+}
+
+/// Distance of fog at a corner [eye units]: z_eye, which is negative before the eye, or the length of p_eye.
+Bounded fog_distance(const Projected& scene, const Corner& c) {
+  const bool is_radial = scene.conventions.fog_distance == Conventions::FogDistance::eye_radial;
+  return is_radial ? length_of({c.p_eye, c.p_eye_error}) : Bounded{c.z_eye, c.z_eye_error};
+}
+
 /// Factors of fog that a fragment may have.
 struct FactorRange {
   double least = kInfinity, most = -kInfinity;
@@ -90,21 +104,27 @@ struct FactorRange {
 };
 
 // Includes the factors that pieces of a cut triangle may interpolate at a fragment of that distance [eye units]. The
-// distances of pieces' corners lie in [near, far]: from the triangle's nearest corner, or the near plane's cut, to its
-// farthest corner. A convex factor lies between the fragment's own and the chord over [near, far]. Where the factor is
-// not convex (exp2; linear fog about its start; across the eye's plane), the whole range is legal.
+// distances of pieces' corners lie in [near, far]: from the triangle's nearest |z_eye|, or the near plane's cut, to its
+// farthest corner. A convex factor of |z_eye| lies between the fragment's own and the chord over [near, far]. Where the
+// factor is not convex (exp2; linear fog about its start; across the eye's plane), or |p_eye| is the distance, which is
+// not linear over a piece, the whole range is legal.
 void include_factors_of_pieces(FactorRange& factors, const Fog& fog, const PixelSite& site, double distance) {
   const auto z_eye = [&](std::uint32_t corner) { return site.scene.corners[corner].z_eye; };
   const auto [low, high] = std::ranges::minmax(site.t.corner, {}, z_eye);
   const bool is_about_eye = z_eye(low) < 0 && z_eye(high) > 0;
-  const double far = std::max(std::abs(z_eye(low)), std::abs(z_eye(high)));
+  const bool is_radial = site.scene.conventions.fog_distance == Conventions::FogDistance::eye_radial;
+  const auto distance_of = [&](std::uint32_t corner) {
+    return std::abs(fog_distance(site.scene, site.scene.corners[corner]).value);
+  };
+  const double far =
+      std::ranges::max({distance_of(site.t.corner[0]), distance_of(site.t.corner[1]), distance_of(site.t.corner[2])});
   double near = is_about_eye ? 0 : std::min(std::abs(z_eye(low)), std::abs(z_eye(high)));
   near = std::max(near, site.scene.distance_per_w * site.t.guarded.w_min);
   const auto factor_at = [&](double d) { return fog_factor(fog, {d, 0}, {16}).value; };
   const double share = far > near ? std::clamp((distance - near) / (far - near), 0.0, 1.0) : 0;
   factors.include(glm::mix(factor_at(near), factor_at(far), share));
   const bool starts = fog.mode == Fog::Mode::linear && near < fog.start && fog.start < far;
-  if (fog.mode == Fog::Mode::exp2 || starts || (is_about_eye && near == 0))
+  if (fog.mode == Fog::Mode::exp2 || starts || is_radial || (is_about_eye && near == 0))
     factors.include(factor_at(near)), factors.include(factor_at(far));
 }
 
@@ -254,7 +274,6 @@ bool FragmentColor::has_no_alpha() const {
 void FragmentColor::light_fragment(BoundedFour& color, BoundedFour& secondary) const {
   const BoundedFour p = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
   const BoundedFour n = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
-  constexpr double kThree = std::numbers::sqrt3;  // length of a vector of three components of 1
   const BoundedVector p_eye{glm::dvec3(p.value), kThree * p.bound};
   BoundedVector n_eye = unit({glm::dvec3(n.value), kThree * n.bound});
   if (is_back()) n_eye.v = -n_eye.v;
@@ -285,10 +304,19 @@ BoundedFour FragmentColor::textured(const BoundedFour& color) const {
 
 Bounded FragmentColor::fog_factor_there() const {
   const Fog& fog = *draw_.fog;
-  const BoundedFour z_eye = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.z_eye), c.z_eye_error}; });
-  Bounded out = fog_factor(fog, {z_eye.value.x, z_eye.bound}, {16});
-  if (site_.scene.conventions.fog_factor == Conventions::FogFactor::per_vertex)
-    out = factor_of_vertices(out, std::abs(z_eye.value.x));
+  const Conventions& conventions = site_.scene.conventions;
+  const bool is_of_vertices = conventions.fog_factor == Conventions::FogFactor::per_vertex;
+  const BoundedFour of_corners = attribute([&](const Corner& c) {
+    const Bounded d = fog_distance(site_.scene, c);
+    return BoundedFour{glm::dvec4(d.value), d.error};
+  });
+  Bounded distance{of_corners.value.x, of_corners.bound};
+  if (conventions.fog_distance == Conventions::FogDistance::eye_radial && !is_of_vertices) {
+    const BoundedFour p = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
+    distance = length_of({glm::dvec3(p.value), kThree * p.bound});
+  }
+  Bounded out = fog_factor(fog, distance, {16});
+  if (is_of_vertices) out = factor_of_vertices(out, std::abs(distance.value));
   out.error = std::isfinite(out.error) ? std::min(1.0, out.error) : 1;
   return out;
 }
@@ -298,7 +326,7 @@ Bounded FragmentColor::fog_factor_there() const {
 Bounded FragmentColor::factor_of_vertices(const Bounded& of_fragment, double distance) const {
   const Fog& fog = *draw_.fog;
   const BoundedFour interpolated = attribute([&](const Corner& c) {
-    const Bounded f = fog_factor(fog, {c.z_eye, c.z_eye_error}, {16});
+    const Bounded f = fog_factor(fog, fog_distance(site_.scene, c), {16});
     return BoundedFour{glm::dvec4(f.value), f.error};
   });
   FactorRange factors;

@@ -42,6 +42,7 @@ struct Conventions {
   enum class LevelOfDetail { per_pixel, per_square, approximate };
   enum class Blending { in_float, in_codes, in_codes_down };
   enum class FogFactor { per_fragment, per_vertex };
+  enum class FogDistance { eye_plane, eye_radial };
   enum class ColorNumbers { in_float, in_codes };
   enum class Magnified { up_to_half, up_to_zero };
   enum class HalfWay { down, either };
@@ -78,6 +79,7 @@ struct Conventions {
   AlphaTest alpha_test = AlphaTest::in_codes;
   Blending blending = Blending::in_float;
   FogFactor fog_factor = FogFactor::per_fragment;
+  FogDistance fog_distance = FogDistance::eye_plane;
   ColorNumbers vertex_colors = ColorNumbers::in_float;
   ColorNumbers fragment_colors = ColorNumbers::in_float;
   LevelOfDetail level_of_detail = LevelOfDetail::per_pixel;
@@ -144,6 +146,8 @@ template <>
 inline constexpr std::array<Name, 3> kNamesOf<Conventions::Blending> = {"in_float", "in_codes", "in_codes_down"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::FogFactor> = {"per_fragment", "per_vertex"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::FogDistance> = {"eye_plane", "eye_radial"};
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::ColorNumbers> = {"in_float", "in_codes"};
 template <>
@@ -229,6 +233,8 @@ void each_choice(Visit visit) {
   visit(ConventionWords{"fragment_colors", "the numbers that colours and texels are before they are merged", true},
         &C::fragment_colors);
   visit(ConventionWords{"fog_factor", "where fog factors are computed (OpenGL 2.1, 3.10)", true}, &C::fog_factor);
+  visit(ConventionWords{"fog_distance", "the distance of fog: |z_eye|, or |p_eye| (OpenGL 2.1, 3.10)", true},
+        &C::fog_distance);
   visit(ConventionWords{"level_of_detail", "per pixel, per square of 2 x 2 pixels, or approximated (OpenGL 2.1, 3.8.8)",
                         true},
         &C::level_of_detail);

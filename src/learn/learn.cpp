@@ -32,7 +32,7 @@ const std::vector<Probe>& probes() {
       {learn_alpha_test, {"alpha_test"}},
       {learn_fragment_colors, {"fragment_colors"}},
       {learn_blending, {"blending"}},
-      {learn_fog, {"fog_factor"}},
+      {learn_fog, {"fog_factor", "fog_distance"}},
       {learn_offset_unit, {kOffsetWords.name}},
       {learn_float_offset_unit, {kFloatOffsetWords.name}},
       {learn_weights, {"texture_bits"}},
@@ -93,6 +93,7 @@ Learned learn(Renderer& renderer) {
     }
     try {
       probe.find(prober);
+      leave_open(prober, probe, fmt::format("{} is open", probe.names.front()));
     } catch (const Unsupported& e) {
       leave_open(prober, probe, e.what());
     } catch (const RendererFailed& e) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -192,8 +193,8 @@ void learn_interpolation(Prober& prober) {
   prober.found(of_colors, name_of(c.color_interpolation), evidence);
 }
 
-// White wall in black fog. Factors of the distance, and those interpolated between the wall's ends, differ by up to 34
-// codes.
+// White wall in black fog. Factors of fragments and those interpolated between the wall's ends differ by up to 34
+// codes, those of |z_eye| and of |p_eye| by up to 23.
 void learn_fog(Prober& prober) {
   constexpr float kDensity = 0.125f;
   const ConventionWords words = words_of("fog_factor");
@@ -204,24 +205,32 @@ void learn_fog(Prober& prober) {
   scene.draws[0].fog = Fog{.mode = Fog::Mode::exp, .color = glm::vec3(0), .density = kDensity};
   const Plane<glm::vec4> color = prober.draw(scene).color;
   const auto factor = [](double distance) { return std::exp(-double{kDensity} * distance); };
-  std::size_t per_fragment = 0, per_vertex = 0, from_eye = 0;
+  struct Counted {
+    C::FogFactor factor;
+    C::FogDistance distance;
+    std::size_t pixels = 0;
+  };
+  using enum C::FogFactor;
+  using enum C::FogDistance;
+  std::array<Counted, 4> counted{
+      {{per_fragment, eye_plane}, {per_vertex, eye_plane}, {per_fragment, eye_radial}, {per_vertex, eye_radial}}};
   for (int x = 0; x < kFrameSize; ++x) {
     const Shares shares = shares_at(x, c);
     const double share = c.interpolation == C::Interpolation::affine ? shares.affine : shares.perspective;
-    const double distance = 2 + 14 * share, slope = 2 * shares.affine - 1;
-    per_fragment += is_grey(color, x, factor(distance));
-    per_vertex += is_grey(color, x, factor(2) + share * (factor(16) - factor(2)));
-    from_eye += is_grey(color, x, factor(distance * std::sqrt(1 + slope * slope)));
+    const double plane = 2 + 14 * share, radial = std::hypot(plane, 18 * share - 2);  // x_eye from -2 to 16
+    for (Counted& by : counted) {
+      const bool is_radial = by.distance == eye_radial;
+      const double of_end = is_radial ? std::numbers::sqrt3 : 1, near = factor(2 * of_end), far = factor(16 * of_end);
+      const double of_fragment = factor(is_radial ? radial : plane);
+      by.pixels += is_grey(color, x, by.factor == per_fragment ? of_fragment : glm::mix(near, far, share));
+    }
   }
-  const std::size_t most = std::max(per_fragment, per_vertex);
-  const std::string evidence = fmt::format("{} of {} pixels", most, kFrameSize);
-  if (most * 10 < kFrameSize * 9) {
-    const std::string by_eye =
-        from_eye > most ? fmt::format("; {} by the distance from the eye, for |z_eye|", from_eye) : "";
-    return prober.fits_none(words, evidence + " at most are explained" + by_eye);
-  }
-  c.fog_factor = per_fragment >= per_vertex ? C::FogFactor::per_fragment : C::FogFactor::per_vertex;
+  const Counted& most = *std::ranges::max_element(counted, {}, &Counted::pixels);
+  const std::string evidence = fmt::format("{} of {} pixels", most.pixels, kFrameSize);
+  if (most.pixels * 10 < kFrameSize * 9) return prober.fits_none(words, evidence + " at most are explained");
+  c.fog_factor = most.factor, c.fog_distance = most.distance;
   prober.found(words, name_of(c.fog_factor), evidence);
+  prober.found(words_of("fog_distance"), name_of(c.fog_distance), evidence);
 }
 
 // Unsnapped and snapped corners give a ramp's pixel colours on either side of the middle between two codes.

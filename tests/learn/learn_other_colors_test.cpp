@@ -11,12 +11,12 @@
 namespace plumbline::learn {
 namespace {
 
-// Stage shade by the distance from the eye in place of |z_eye|.
-pipeline::Shaded shade_by_distance(const pipeline::Surface& surface, bool front,
-                                   const pipeline::SurfaceAttributes<float>& attributes) {
+// Stage shade in fog of half the distance.
+pipeline::Shaded shade_by_half(const pipeline::Surface& surface, bool front,
+                               const pipeline::SurfaceAttributes<float>& attributes) {
   pipeline::SurfaceAttributes<float> other = attributes;
   pipeline::Color<float>& p = other[Varying::position];
-  p.b = std::sqrt(p.r * p.r + p.g * p.g + p.b * p.b);
+  p.b /= 2;
   return {pipeline::shade<float>(surface, front, other)};
 }
 
@@ -35,7 +35,7 @@ TEST(LearnColors, EncodedOnesLeaveWhatMixesColoursOpen) {
   EXPECT_EQ(found.provoking_vertex, C::Provoking::last);
   EXPECT_THAT(found.unexplained, testing::IsEmpty());
   EXPECT_THAT(found.open, testing::IsSupersetOf({"blending", "texture_bits", "fragment_colors", "level_of_detail",
-                                                 "half_way_level", "interpolation", "fog_factor"}));
+                                                 "half_way_level", "interpolation", "fog_factor", "fog_distance"}));
 }
 
 float code_above(float v, float scale) { return std::ceil(std::clamp(v, 0.0f, 1.0f) * scale - 1e-4f); }
@@ -63,6 +63,10 @@ TEST(LearnFog, FactorsOfVerticesAreFound) {
   EXPECT_EQ(learned(pipeline::make_pipeline()), expected);
   expected.fog_factor = C::FogFactor::per_vertex;
   EXPECT_EQ(learned(test::make_fog_by_vertices<pipeline::fog_factor<float>>()), expected);
+  expected.fog_distance = C::FogDistance::eye_radial;
+  EXPECT_EQ(learned(test::make_fog_by_vertices<pipeline::fog_factor<float>, test::length_of>()), expected);
+  expected.fog_factor = C::FogFactor::per_fragment;
+  EXPECT_EQ(learned(test::make_radial_fog()), expected);
 }
 
 TEST(LearnFragmentColors, CodesAreFound) {
@@ -171,11 +175,10 @@ TEST(LearnFragmentColors, OtherProductsAreAFinding) {
 
 TEST(LearnFog, AnotherDistanceIsAFinding) {
   pipeline::Stages stages = pipeline::production_stages();
-  stages.shade = shade_by_distance;
+  stages.shade = shade_by_half;
   const C found = learned(pipeline::make_pipeline(stages));
   ASSERT_EQ(found.unexplained.size(), 1u);
-  EXPECT_NE(found.unexplained[0].find("64 by the distance from the eye, for |z_eye|"), std::string::npos)
-      << found.unexplained[0];
+  EXPECT_NE(found.unexplained[0].find("of 64 pixels at most are explained"), std::string::npos) << found.unexplained[0];
 }
 
 TEST(LearnFog, IsOpenWithoutFog) {
@@ -184,7 +187,7 @@ TEST(LearnFog, IsOpenWithoutFog) {
     if (std::ranges::any_of(scene.draws, [](const Draw& d) { return d.fog.has_value(); })) throw Unsupported("fog");
   };
   C expected = ours();
-  expected.open = {"fog_factor"};
+  expected.open = {"fog_factor", "fog_distance"};
   EXPECT_EQ(learn(renderer).conventions, expected);
 }
 

@@ -19,18 +19,21 @@ inline float unclamped_fog_factor(const Fog& fog, float z_eye) {
   return (fog.end - std::abs(z_eye)) / (fog.end - fog.start);
 }
 
-/// Stage light, which leaves fog factors of vertices for their eye-space z.
-template <auto factor>
+inline float z_of(const glm::vec3& p_eye) { return p_eye.z; }
+inline float length_of(const glm::vec3& p_eye) { return glm::length(p_eye); }
+
+/// Stage light, which leaves fog factors of vertices, by their distance(p_eye), for their eye-space z.
+template <auto factor, auto distance>
 void light_with_fog_factors(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
                             std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   const std::size_t first = out.size();
   pipeline::light(scene, draw, mesh, lights, vertices, out);
   for (std::size_t i = 0; draw.fog && i < vertices.size(); ++i)
-    out[first + i][Varying::position].b = factor(*draw.fog, vertices[i].p_eye.z);
+    out[first + i][Varying::position].b = factor(*draw.fog, distance(glm::vec3(vertices[i].p_eye)));
 }
 
-/// Stage shade, with factors of fog of what is interpolated in place of the fragment's eye-space z.
-template <auto factor>
+/// Stage shade, with factors of fog of distance(what is interpolated in place of the fragment's p_eye).
+template <auto factor, auto distance = z_of>
 pipeline::Shaded shade_with_fog_factors(const pipeline::Surface& surface, bool front,
                                         const pipeline::SurfaceAttributes<float>& attributes) {
   Draw clear = *surface.draw;
@@ -39,7 +42,8 @@ pipeline::Shaded shade_with_fog_factors(const pipeline::Surface& surface, bool f
   without.draw = &clear;
   const pipeline::Color<float> color = pipeline::shade<float>(without, front, attributes);
   if (!surface.draw->fog) return {color};
-  const float f = factor(*surface.draw->fog, attributes[Varying::position].b);
+  const pipeline::Color<float>& p_eye = attributes[Varying::position];
+  const float f = factor(*surface.draw->fog, distance({p_eye.r, p_eye.g, p_eye.b}));
   const glm::vec3& fog = surface.draw->fog->color;
   return {{f * color.r + (1 - f) * fog.r, f * color.g + (1 - f) * fog.g, f * color.b + (1 - f) * fog.b, color.a}};
 }
@@ -47,11 +51,18 @@ pipeline::Shaded shade_with_fog_factors(const pipeline::Surface& surface, bool f
 inline float clamped_factor(const Fog&, float interpolated) { return std::clamp(interpolated, 0.0f, 1.0f); }
 
 /// `fog_factor` per_vertex: interpolated as other attributes are. `factor`: factors of vertices.
-template <auto factor>
+template <auto factor, auto distance = z_of>
 std::unique_ptr<Renderer> make_fog_by_vertices() {
   pipeline::Stages stages = pipeline::production_stages();
-  stages.light = light_with_fog_factors<factor>;
+  stages.light = light_with_fog_factors<factor, distance>;
   stages.shade = shade_with_fog_factors<clamped_factor>;
+  return pipeline::make_pipeline(stages);
+}
+
+/// `fog_distance` eye_radial.
+inline std::unique_ptr<Renderer> make_radial_fog() {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.shade = shade_with_fog_factors<pipeline::fog_factor<float>, length_of>;
   return pipeline::make_pipeline(stages);
 }
 

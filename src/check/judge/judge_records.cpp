@@ -22,8 +22,8 @@ namespace {
 std::string_view why_not(const Scene& scene, Stage stage, const Conventions& conventions) {
   if ((stage == Stage::clip || stage == Stage::window) && has_other_volume(conventions))
     return "its view volume is another";
-  if (stage == Stage::shade && fogs_by_vertices(scene, conventions))
-    return "its fog factors are of vertices: the frame's colours are judged";
+  if (stage == Stage::shade && fogs_otherwise(scene, conventions))
+    return "its fog factors are of vertices, or of |p_eye|: the frame's colours are judged";
   if ((stage == Stage::light || stage == Stage::clip) && has_codes_of_vertices(scene.frame, conventions))
     return "its vertices' colours are codes: the frame's colours are judged";
   return "";

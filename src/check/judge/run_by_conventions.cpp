@@ -328,8 +328,8 @@ Capture merge_as_declared(Renderer& referee, const Scene& scene, const Capture& 
 
 bool has_other_volume(const Conventions& conventions) { return conventions.clip_depth != C::ClipDepth::minus_w_to_w; }
 
-bool fogs_by_vertices(const Scene& scene, const Conventions& conventions) {
-  return conventions.fog_factor == C::FogFactor::per_vertex &&
+bool fogs_otherwise(const Scene& scene, const Conventions& c) {
+  return (c.fog_factor != C().fog_factor || c.fog_distance != C().fog_distance) &&
          std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.fog.has_value(); });
 }
 
@@ -345,7 +345,7 @@ bool differs_from_opengl(const Scene& scene, const Conventions& conventions, Sta
                                                    : by.offset_unit.x;
   };
   if (stage >= Stage::depth && is_offset && unit(conventions) != unit(C())) return true;
-  if (stage >= Stage::shade && stage != Stage::visibility && fogs_by_vertices(scene, conventions)) return true;
+  if (stage >= Stage::shade && stage != Stage::visibility && fogs_otherwise(scene, conventions)) return true;
   const bool has_colors = stage >= Stage::attributes && (stage != Stage::visibility || tests_alpha(scene));
   if (has_colors && (has_codes || has_codes_of_fragments(scene.frame, conventions) ||
                      interpolation_of_colors(conventions) != conventions.interpolation))

@@ -11,8 +11,9 @@ namespace plumbline::check {
 /// apply.
 bool has_other_volume(const Conventions& conventions);
 
-/// Whether a draw's fog factors are computed at vertices. Records of fragments do not hold these factors.
-bool fogs_by_vertices(const Scene& scene, const Conventions& conventions);
+/// Whether a draw's fog is not that of the fragment's |z_eye|, which the references compute: factors of vertices, which
+/// no record of fragments holds, or distances |p_eye|.
+bool fogs_otherwise(const Scene& scene, const Conventions& conventions);
 
 /// Whether the stage's result differs from OpenGL's by these conventions.
 bool differs_from_opengl(const Scene& scene, const Conventions& conventions, Stage stage);

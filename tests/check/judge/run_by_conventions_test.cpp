@@ -369,14 +369,14 @@ TEST_F(ByConventions, OffsetsAreOtherwiseInFramesOfTheUnitsFormat) {
 }
 
 TEST_F(ByConventions, ColorsAreOtherwiseInFogOfVerticesAndInCodes) {
-  C by_vertices, in_codes;
+  C by_vertices, radial, in_codes, of_vertices, affine;
   by_vertices.fog_factor = C::FogFactor::per_vertex, in_codes.fragment_colors = C::ColorNumbers::in_codes;
+  radial.fog_distance = C::FogDistance::eye_radial;
   EXPECT_FALSE(differs_from_opengl(scene, by_vertices, Stage::shade)) << "no fog";
   scene.draws[0].fog.emplace();
-  EXPECT_TRUE(differs_from_opengl(scene, by_vertices, Stage::shade));
-  EXPECT_TRUE(differs_from_opengl(scene, by_vertices, Stage::merge));
+  for (const Stage stage : {Stage::shade, Stage::merge})
+    EXPECT_TRUE(differs_from_opengl(scene, by_vertices, stage) && differs_from_opengl(scene, radial, stage));
   EXPECT_TRUE(differs_from_opengl(scene, in_codes, Stage::attributes));
-  C of_vertices, affine;
   of_vertices.vertex_colors = C::ColorNumbers::in_codes;
   affine.color_interpolation = C::ColorInterpolation::affine;
   for (const Stage stage : {Stage::light, Stage::clip, Stage::attributes, Stage::merge})

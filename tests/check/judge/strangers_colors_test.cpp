@@ -84,6 +84,26 @@ TEST(StrangersFog, FactorsMayBeThoseOfVerticesWhereThatIsDeclared) {
   EXPECT_TRUE(is_wrong(verdict_of("fog/exp", pipeline::make_pipeline(), per_vertex)));
 }
 
+TEST(StrangersFog, MayBeOfTheDistanceFromTheEyeWhereThatIsDeclared) {
+  using enum C::FogDistance;
+  const auto verdict = [](const char* scene, std::unique_ptr<Renderer> renderer, C::FogFactor factor,
+                          C::FogDistance distance) {
+    C declared = with_factors(factor);
+    declared.fog_distance = distance;
+    return verdict_of(scene, std::move(renderer), declared);
+  };
+  using enum C::FogFactor;
+  const auto by_vertices = [] { return test::make_fog_by_vertices<pipeline::fog_factor<float>, test::length_of>(); };
+  for (const char* scene : {"fog/exp", "fog/exp2", "fog/cut", "fog/linear", "fog/backwards", "texture/floor_in_fog"}) {
+    EXPECT_TRUE(is_right(verdict(scene, test::make_radial_fog(), per_fragment, eye_radial))) << scene;
+    EXPECT_TRUE(is_wrong(verdict(scene, test::make_radial_fog(), per_fragment, eye_plane))) << scene;
+    EXPECT_TRUE(is_right(verdict(scene, by_vertices(), per_vertex, eye_radial))) << scene;
+    EXPECT_TRUE(is_wrong(verdict(scene, by_vertices(), per_vertex, eye_plane))) << scene;
+  }
+  EXPECT_TRUE(is_wrong(verdict("fog/exp", pipeline::make_pipeline(), per_fragment, eye_radial)));
+  EXPECT_TRUE(is_wrong(verdict("fog/exp", by_vertices(), per_fragment, eye_radial)));
+}
+
 // Factors of a cut polygon's corners lie between those of the mesh's vertices and those of fragments.
 TEST(StrangersFog, FactorsOfCutTrianglesMayBeThoseOfTheCutCorners) {
   using enum C::FogFactor;
