@@ -119,6 +119,12 @@ GridPoints grid_points(const Projected& scene, const Corner& corner) {
   return out;
 }
 
+double snapping_step(const Conventions& c) {
+  if (c.subpixel_bits == Conventions::kFloat) return 0;
+  const double step = std::ldexp(1.0, -c.subpixel_bits);
+  return c.subpixel_rounding == Conventions::Rounding::nearest ? step / 2 : step;
+}
+
 std::optional<Corner> on_grid(const Projected& scene, const Corner& corner) {
   const GridPoints points = grid_points(scene, corner);
   if (points.count != 1) return std::nullopt;

@@ -98,6 +98,7 @@ double error_in_float(const Projected& scene, const Triangle& t, glm::dvec3 d, c
   const auto error = [&](const WindowCorners& corners) {
     return depth_error(arithmetic, corners, p, frame_of(scene), from);
   };
+  if (t.cut && !(altitudes.framed > 0)) return kInfinity;
   const double out = t.cut ? error_of_pieces(scene, t, {d, 0, kInfinity}, {slope, from, altitudes}, error) : 0;
   return t.ahead ? std::max(out, error(window_corners(scene, t))) : out;
 }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "capture/float_depth.h"
-#include "capture/stages.h"
 #include "reference/arithmetic/bounded.h"
 #include "reference/arithmetic/color_error.h"
 #include "reference/arithmetic/draw_ranges.h"
@@ -179,14 +178,32 @@ std::array<const Corner*, 3> corners_of(const Projected& scene, const Triangle& 
   return {&scene.corners[t.corner[0]], &scene.corners[t.corner[1]], &scene.corners[t.corner[2]]};
 }
 
-/// Sets `cuts` and `cut` by the planes that may cut off a corner; a plane through a corner may. Returns true if the
-/// near or the far plane is among these planes.
+/// How far [pixels] from a corner a cut of the edge from there to `to` may lie; `inside`, `error` of the corner and
+/// `inside_to` by one plane. 0: the plane does not cut the corner off, or the whole edge lies about the plane. A corner
+/// on the plane in double is taken to be on it in float.
+double reach_of_cut(const Corner& corner, const Corner& to, double inside, double error, double inside_to) {
+  const double by = 2 * error - inside;
+  if (inside < 0 || by <= 0 || inside == error || inside_to < 4 * error) return 0;
+  const glm::dvec3 cut = corner.v + by / (by + inside_to - 2 * error) * (to.v - corner.v);
+  return corner.v.z > 0 && cut.z > 0 ? glm::distance(glm::dvec2(corner.v) / corner.v.z, glm::dvec2(cut) / cut.z) : 0;
+}
+
+/// Sets `cuts` and `cut` by the planes that may cut off a corner (a plane through a corner may), and `may_be_cut_off`.
+/// Returns true if the near or the far plane is among these planes.
 bool set_cuts(const Projected& scene, const std::array<const Corner*, 3>& c, Triangle& t) {
   std::array<bool, 6> may_cut{};
-  for (const Corner* corner : c) {
-    const auto inside = inside_planes(scene, *corner, 0, scene.depth_clamp);
-    const auto error = plane_errors(scene, corner->size, 0, scene.depth_clamp);
-    for (std::size_t p = 0; p < 6; ++p) may_cut[p] |= inside[p] < 4 * error[p];
+  const auto inside_of = [&](std::size_t i) { return inside_planes(scene, *c[i], 0, scene.depth_clamp); };
+  const std::array inside{inside_of(0), inside_of(1), inside_of(2)};
+  const bool has_slivers = scene.conventions.subpixel_bits == Conventions::kFloat;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double reach = 0;
+    const auto error = plane_errors(scene, c[i]->size, 0, scene.depth_clamp);
+    for (std::size_t p = 0; p < 6; ++p) {
+      may_cut[p] |= inside[i][p] < 4 * error[p];
+      for (const std::size_t to : {(i + 1) % 3, (i + 2) % 3})
+        if (has_slivers) reach = std::max(reach, reach_of_cut(*c[i], *c[to], inside[i][p], error[p], inside[to][p]));
+    }
+    if (reach > 0) t.may_be_cut_off.push_back({glm::dvec2(c[i]->v) / c[i]->v.z, reach});
   }
   t.cuts = static_cast<int>(std::ranges::count(may_cut, true));
   t.cut |= t.cuts > 0;
@@ -341,18 +358,6 @@ Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, do
 Piece piece_in_window(const Projected& scene, const Corner& j, const Corner& k, double margin) {
   return piece_inside(inside_planes(scene, j, margin, true), inside_planes(scene, k, margin, true));
 }
-
-namespace {
-
-/// Largest displacement of a coordinate by snapping to a grid of 2^-bits [pixels]: half a step by rounding to nearest,
-/// else a step.
-double snapping_step(const Conventions& c) {
-  if (c.subpixel_bits == Conventions::kFloat) return 0;
-  const double step = std::ldexp(1.0, -c.subpixel_bits);
-  return c.subpixel_rounding == Conventions::Rounding::nearest ? step / 2 : step;
-}
-
-}  // namespace
 
 Projected project(const Scene& scene, const Conventions& conventions) {
   Projected out;

@@ -34,6 +34,9 @@ struct GridPoints {
   std::size_t count = 0;
 };
 GridPoints grid_points(const Projected& scene, const Corner& corner);
+/// Largest displacement of a coordinate by snapping [pixels]: half a step of the grid by rounding to nearest, else a
+/// step.
+double snapping_step(const Conventions& conventions);
 /// The corner on the grid; nullopt: it may be snapped to several grid points.
 std::optional<Corner> on_grid(const Projected& scene, const Corner& corner);
 

@@ -81,8 +81,16 @@ struct Triangle {
     double w_min = 0;                 ///< of their corners
   } guarded;
   glm::dvec2 stepped{0};  ///< [pixels] displacement of its edges in x and y where float steps them
-  double reach = 0;       ///< [pixels] largest displacement of a vertex over its visible part
-  double growth = 1;      ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
+  /// Corners so near to a plane that float may cut them off, where positions are not snapped. Then a piece may be a
+  /// sliver along an edge or a diagonal from there, no wider than `reach` [pixels]. `at`: [pixels from the window's
+  /// middle].
+  struct MayBeCutOff {
+    glm::dvec2 at;
+    double reach;
+  };
+  std::vector<MayBeCutOff> may_be_cut_off;
+  double reach = 0;   ///< [pixels] largest displacement of a vertex over its visible part
+  double growth = 1;  ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
 };
 
 /// z_win of a triangle at z_view; the polygon offset is included.

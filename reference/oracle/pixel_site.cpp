@@ -108,6 +108,14 @@ void PixelSite::find_pieces() {
     return (std::isfinite(here) ? here : of_all) - moved_by;
   };
   pieces = {thinnest(t.altitude, t.outline), thinnest(t.guarded.altitude, t.guarded.outline)};
+  const auto may_lie_in_a_sliver = [&](const std::vector<glm::dvec2>& outline) {
+    return std::ranges::any_of(t.may_be_cut_off, [&](const Triangle::MayBeCutOff& from) {
+      return std::ranges::any_of(outline, [&](glm::dvec2 to) {
+        return distance_to_triangle(glm::dvec2(d), {from.at, to, to}) <= from.reach + 2 * t.reach;
+      });
+    });
+  };
+  if (may_lie_in_a_sliver(t.outline) || may_lie_in_a_sliver(t.guarded.outline)) pieces = {0, 0};
 }
 
 double PixelSite::snap_weight(bool certain) const {

@@ -53,6 +53,30 @@ TEST(Projected, ClipWIsADistanceByTheProjection) {
   EXPECT_EQ(project(window_scene({{glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)}})).distance_per_w, 0);
 }
 
+// A corner 1e-6 before the far plane, which float may find beyond it: a piece may be a sliver along the diagonal.
+TEST(Projected, FloatMayCutOffACornerBesideAPlane) {
+  const auto with_corner_at = [](float z) {
+    return window_scene({{glm::vec3(2.5f, 2.5f, z), glm::vec3(30.5f, 2.5f, 0.5f), glm::vec3(30.5f, 30.5f, 0.5f)}});
+  };
+  C in_float;
+  in_float.subpixel_bits = C::kFloat;
+  const auto altitude_at = [](const Projected& projected, int x, int y) {
+    return PixelSite(projected, projected.triangles[0], x, y).pieces.framed;
+  };
+  const Projected beside = project(with_corner_at(0.999999f), in_float);
+  ASSERT_EQ(beside.triangles[0].may_be_cut_off.size(), 1u);
+  EXPECT_EQ(beside.triangles[0].may_be_cut_off[0].at, glm::dvec2(-13.5));
+  EXPECT_LT(beside.triangles[0].may_be_cut_off[0].reach, 0.001);
+  EXPECT_EQ(altitude_at(beside, 10, 10), 0) << "on the diagonal";
+  EXPECT_GT(altitude_at(beside, 11, 10), 1);
+  for (const float z : {0.5f, 0.999f, 1.0f, 1.001f}) {
+    const Projected apart = project(with_corner_at(z), in_float);
+    EXPECT_TRUE(apart.triangles[0].may_be_cut_off.empty()) << z;
+    EXPECT_GT(altitude_at(apart, 10, 10), 0) << z;
+  }
+  EXPECT_TRUE(project(with_corner_at(0.999999f)).triangles[0].may_be_cut_off.empty()) << "snapped";
+}
+
 // A triangle across the plane of the eye, sampled off the centre: the centre may lie outside of all pieces.
 TEST(Projected, PiecesNearASampleHaveErrors) {
   Scene scene = seen_from_the_eye({glm::vec3(-0.3f, -0.2f, -2), glm::vec3(0.35f, -0.2f, -2), glm::vec3(0.1f, 4, 3)});
