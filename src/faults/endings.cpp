@@ -21,8 +21,7 @@ void hang(const pipeline::DrawInput&, const pipeline::Polygon&, std::vector<pipe
   while (true) ::pause();
 }
 
-void take_memory(const Scene&, const Draw&, const Mesh&, pipeline::Lights, std::span<const Vertex<float>>,
-                 std::vector<pipeline::Attributes>& out) {
+void take_memory(const pipeline::LightInput&, std::vector<pipeline::Attributes>& out) {
   while (true) out.resize(2 * out.size() + 1);
 }
 

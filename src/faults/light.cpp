@@ -14,18 +14,16 @@ namespace plumbline::faults {
 
 namespace {
 
-using pipeline::Lights;
-using Vertices = std::span<const Vertex<float>>;
+using pipeline::LightInput;
 using LitVertices = std::vector<pipeline::Attributes>;
 
 // Stage light of the scene that `change` altered, and of its lights.
 template <auto change>
-void lit_otherwise(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights, Vertices vertices,
-                   LitVertices& out) {
-  Scene wrong = scene;
-  Draw wrong_draw = draw;
+void lit_otherwise(const LightInput& in, LitVertices& out) {
+  Scene wrong = in.scene;
+  Draw wrong_draw = in.draw;
   change(wrong, wrong_draw);
-  pipeline::light(wrong, wrong_draw, mesh, pipeline::light_sources(wrong), vertices, out);
+  pipeline::light({wrong, wrong_draw, in.mesh, pipeline::light_sources(wrong), in.vertices}, out);
 }
 
 constexpr auto kNoAttenuation = [](Scene& scene, Draw&) {
@@ -76,20 +74,18 @@ constexpr auto kWorldSpace = [](Scene& scene, Draw&) {
   scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 };
 
-void back_color_is_the_fronts(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
-                              LitVertices& out) {
+void back_color_is_the_fronts(const LightInput& in, LitVertices& out) {
   const std::size_t first = out.size();
-  pipeline::light(scene, draw, mesh, lights, vertices, out);
-  if (!carries(scene, draw, Varying::back_color)) return;
+  pipeline::light(in, out);
+  if (!carries(in.scene, in.draw, Varying::back_color)) return;
   for (std::size_t i = first; i < out.size(); ++i) out[i][Varying::back_color] = out[i].color();
 }
 
 // |z_eye| at the vertices, before clipping: on a primitive that reaches behind the eye, the interpolated distance grows
 // towards the vertices.
-void positions_by_distance(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
-                           LitVertices& out) {
+void positions_by_distance(const LightInput& in, LitVertices& out) {
   const std::size_t first = out.size();
-  pipeline::light(scene, draw, mesh, lights, vertices, out);
+  pipeline::light(in, out);
   for (std::size_t i = first; i < out.size(); ++i) {
     float& z_eye = out[i][Varying::position].z;
     z_eye = std::abs(z_eye);

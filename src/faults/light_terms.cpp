@@ -65,18 +65,10 @@ Color<float> lit_light_by_light(const Illumination& illumination, const Reflecta
   return {pipeline::clamp01(sum.r), pipeline::clamp01(sum.g), pipeline::clamp01(sum.b), sum.a};
 }
 
-// Vertices of a draw, and the lights that they are lit by.
-struct VerticesInLight {
-  const Scene& scene;
-  const Draw& draw;
-  const Mesh& mesh;
-  pipeline::Lights lights;
-  std::span<const Vertex<float>> vertices;
-};
-
 // Lit colours of the part, into the vertices' attribute of that number.
 template <auto change, bool clamps>
-void light_part(const VerticesInLight& of, LitPart part, std::size_t attribute, std::span<pipeline::Attributes> out) {
+void light_part(const pipeline::LightInput& of, LitPart part, std::size_t attribute,
+                std::span<pipeline::Attributes> out) {
   const bool by_color = of.draw.color_material != ColorMaterial::none && !of.mesh.colors.empty();
   const Illumination in_eye_space = pipeline::illumination(of.scene, of.lights);
   const pipeline::ColoredMaterial material = pipeline::colored_material(of.scene, of.draw, part);
@@ -92,16 +84,14 @@ void light_part(const VerticesInLight& of, LitPart part, std::size_t attribute, 
 }
 
 template <auto change, bool clamps = true>
-void at_vertices(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
-                 std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
-  pipeline::light(scene, draw, mesh, lights, vertices, out);
-  if (!is_lit_per_vertex(draw)) return;
-  const std::span<pipeline::Attributes> added = std::span(out).last(vertices.size());
-  const VerticesInLight of{scene, draw, mesh, lights, vertices};
-  light_part<change, clamps>(of, {}, 0, added);
+void at_vertices(const pipeline::LightInput& in, std::vector<pipeline::Attributes>& out) {
+  pipeline::light(in, out);
+  if (!is_lit_per_vertex(in.draw)) return;
+  const std::span<pipeline::Attributes> added = std::span(out).last(in.vertices.size());
+  light_part<change, clamps>(in, {}, 0, added);
   for (const Varying v : kAllVaryings) {
-    if (!is_lit(v) || !carries(scene, draw, v)) continue;
-    light_part<change, clamps>(of, {is_back(v), is_secondary(v)}, 1 + index_of(v), added);
+    if (!is_lit(v) || !carries(in.scene, in.draw, v)) continue;
+    light_part<change, clamps>(in, {is_back(v), is_secondary(v)}, 1 + index_of(v), added);
   }
 }
 

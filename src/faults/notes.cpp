@@ -69,29 +69,27 @@ Matrices<float> whole_centres(const Scene& scene, const Draw& draw) {
 
 // N.L below 0 takes light away, as does an opposite light of negative colour. (Directional lights alone, as GzRender's
 // are; 8 lights at most.)
-void no_clamp_of_n_l(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
-                     std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
-  Scene wrong = scene;
-  std::vector<LightSource<float>> opposite(lights.begin(), lights.end());
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& l = scene.lights[i];
+void no_clamp_of_n_l(const pipeline::LightInput& in, std::vector<pipeline::Attributes>& out) {
+  Scene wrong = in.scene;
+  std::vector<LightSource<float>> opposite(in.lights.begin(), in.lights.end());
+  for (std::size_t i = 0; i < in.scene.lights.size(); ++i) {
+    const Light& l = in.scene.lights[i];
     if (l.kind == Light::Kind::directional && wrong.lights.size() < 8) {
       wrong.lights.push_back({l.kind, -l.vector, glm::vec3(0), -l.diffuse, glm::vec3(0)});
-      opposite.push_back({-lights[i].p_eye, {}});
+      opposite.push_back({-in.lights[i].p_eye, {}});
     }
   }
-  pipeline::light(wrong, draw, mesh, opposite, vertices, out);
+  pipeline::light({wrong, in.draw, in.mesh, opposite, in.vertices}, out);
 }
 
 // GzRender turns N where N.L and N.E are both below 0, and skips the light where only one is. The mistake turns N
 // wherever N.E < 0.
-void flipped_normals(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
-                     std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
-  std::vector<Vertex<float>> facing(vertices.begin(), vertices.end());
+void flipped_normals(const pipeline::LightInput& in, std::vector<pipeline::Attributes>& out) {
+  std::vector<Vertex<float>> facing(in.vertices.begin(), in.vertices.end());
   for (Vertex<float>& v : facing) {
     if (v.n_eye.z < 0) v.n_eye = -v.n_eye;
   }
-  pipeline::light(scene, draw, mesh, lights, facing, out);
+  pipeline::light({in.scene, in.draw, in.mesh, in.lights, facing}, out);
 }
 
 // A triangle with a corner before the near plane (Z < 0) is deleted. Where depths are clamped there is no near

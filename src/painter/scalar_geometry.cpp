@@ -62,7 +62,7 @@ void ScalarGeometry::run_draw(const Scene& scene, const AssemblyWork& work, cons
   vertices_.clear();
   transform(input.matrices, draw.normals, mesh, vertices_);
   attributes_.clear();
-  light(scene, draw, mesh, {lights.begin(), lights.end()}, vertices_, attributes_);
+  light({scene, draw, mesh, {lights.begin(), lights.end()}, vertices_}, attributes_);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Polygon polygon = assemble(input, mesh.triangles[i], vertices_, attributes_);
     polygon.primitive = work.range.first_primitive + of_draw_[i];

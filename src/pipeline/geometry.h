@@ -33,18 +33,12 @@ void transform(const Matrices<float>& matrices, Normals normals, const Mesh& mes
 
 // 2. The attributes of each vertex, its lit colour first.
 
-/// Appends one record per vertex of the draw; attributes that the draw does not carry are zero. `lights`: stage 0's.
+/// Appends one record per vertex of the draw; attributes that the draw does not carry are zero.
 ///
 /// Colours are clamped to [0,1]. Lit: by light_equation.h, with the draw's material, in which the mesh's colours
 /// replace what the draw's ColorMaterial names (2.14.3). Unlit, or to be lit per fragment: the mesh's colour, or the
 /// material's diffuse.
-void light(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights,
-           std::span<const Vertex<float>> vertices, std::vector<Attributes>& out);
-
-/// Writes one part of a lit draw's colours into attribute number `attribute` (0: the colour, 1 + v: Varying v) of each
-/// of `out`, which has one entry per vertex. Alpha of a secondary part is 0.
-void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart part, Lights lights,
-                std::span<const Vertex<float>> vertices, std::size_t attribute, std::span<Attributes> out);
+void light(const LightInput& in, std::vector<Attributes>& out);
 
 // 3. Primitives are assembled and cut at the six planes of the view volume.
 

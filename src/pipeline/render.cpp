@@ -31,7 +31,7 @@ Frame render(const Scene& scene, const Stages& stages, Recorder records) {
 
     // 2. Light: each vertex' colour, and the attributes beside it.
     std::vector<Attributes> attributes;
-    stages.light(scene, draw, mesh, in_eye_space, vertices, attributes);
+    stages.light({scene, draw, mesh, in_eye_space, vertices}, attributes);
     records.attributes(attributes);
 
     draw_primitives({draw_input(scene, draw, matrices), mesh.triangles, vertices, attributes,

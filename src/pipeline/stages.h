@@ -62,6 +62,15 @@ inline DrawInput draw_input(const Scene& scene, const Draw& draw, const Matrices
           matrices};
 }
 
+/// Per-draw input of stage 2. All of it must outlive the struct.
+struct LightInput {
+  const Scene& scene;
+  const Draw& draw;
+  const Mesh& mesh;                         ///< the draw's
+  Lights lights;                            ///< stage 0's
+  std::span<const Vertex<float>> vertices;  ///< stage 1's, one per vertex of the mesh
+};
+
 /// Offsets from the pixel's centre at which a pass takes coverage, depth and attributes [1/256 pixel].
 struct SampleOffsets {
   glm::ivec2 coverage, depth, color;
@@ -98,8 +107,7 @@ struct Stages {
   // 1 vertex: one record for each vertex of the mesh
   void (*vertex)(const Matrices<float>&, Normals, const Mesh&, std::vector<Vertex<float>>& out);
   // 2 light: attributes of each vertex
-  void (*light)(const Scene&, const Draw&, const Mesh&, Lights, std::span<const Vertex<float>>,
-                std::vector<Attributes>& out);
+  void (*light)(const LightInput&, std::vector<Attributes>& out);
   // 3 clip: the caller sets the assembled polygon's primitive
   Polygon (*assemble)(const DrawInput&, const glm::uvec3& corners, std::span<const Vertex<float>>,
                       std::span<const Attributes>);

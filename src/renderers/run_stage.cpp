@@ -85,7 +85,7 @@ class OneStage {
       vertices.push_back(narrow(records_.vertices[range.first_vertex + i]));
     }
     if (stage_ == Stage::light) {
-      stages_.light(scene_, draw, mesh, lights_, vertices, attributes);
+      stages_.light({scene_, draw, mesh, lights_, vertices}, attributes);
       return recorder_.attributes(attributes);
     }
     for (std::size_t i = 0; i < range.vertex_count; ++i) {

@@ -209,7 +209,7 @@ pipeline::Frame drawn_from_export(const std::filesystem::path& folder) {
     std::vector<Vertex<float>> vertices;
     stages.vertex(matrices, draw.normals, mesh, vertices);
     std::vector<pipeline::Attributes> attributes;
-    stages.light(scene, draw, mesh, lights, vertices, attributes);
+    stages.light({scene, draw, mesh, lights, vertices}, attributes);
     pipeline::draw_primitives({pipeline::draw_input(scene, draw, matrices), mesh.triangles, vertices, attributes,
                                of["first_primitive"], pipeline::surface_of(scene, draw, lights)},
                               scene.frame, stages, frame, nobody);

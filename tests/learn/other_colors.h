@@ -24,12 +24,11 @@ inline float length_of(const glm::vec3& p_eye) { return glm::length(p_eye); }
 
 /// Stage light, which leaves fog factors of vertices, by their distance(p_eye), for their eye-space z.
 template <auto factor, auto distance>
-void light_with_fog_factors(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
-                            std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
+void light_with_fog_factors(const pipeline::LightInput& in, std::vector<pipeline::Attributes>& out) {
   const std::size_t first = out.size();
-  pipeline::light(scene, draw, mesh, lights, vertices, out);
-  for (std::size_t i = 0; draw.fog && i < vertices.size(); ++i)
-    out[first + i][Varying::position].b = factor(*draw.fog, distance(glm::vec3(vertices[i].p_eye)));
+  pipeline::light(in, out);
+  for (std::size_t i = 0; in.draw.fog && i < in.vertices.size(); ++i)
+    out[first + i][Varying::position].b = factor(*in.draw.fog, distance(glm::vec3(in.vertices[i].p_eye)));
 }
 
 /// Stage shade, with factors of fog of distance(what is interpolated in place of the fragment's p_eye).
@@ -73,10 +72,9 @@ inline pipeline::Color<float> as_codes(const pipeline::Color<float>& color) {
 
 /// Stage light, whose colours are codes of 8 bits, so many of them too bright.
 template <int too_bright>
-void light_in_codes(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
-                    std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
+void light_in_codes(const pipeline::LightInput& in, std::vector<pipeline::Attributes>& out) {
   const std::size_t first = out.size();
-  pipeline::light(scene, draw, mesh, lights, vertices, out);
+  pipeline::light(in, out);
   for (std::size_t i = first; i < out.size(); ++i) {
     Vec4<float>& color = out[i].color();
     const pipeline::Color<float> code = as_codes({color.r, color.g, color.b, color.a});

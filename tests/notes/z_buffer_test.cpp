@@ -212,7 +212,7 @@ double stage_color(glm::dvec3 n, const std::vector<Lamp>& lamps, double ks, doub
                    static_cast<float>(s)};
   const Vertex<float> vertex{{0, 0, -5, 1}, {0, 0, 0, 1}, Vec3<float>(n)};
   std::vector<Attributes> lit;
-  light(scene, draw, scene.meshes[draw.mesh], light_sources(scene), std::span(&vertex, 1), lit);
+  light({scene, draw, scene.meshes[draw.mesh], light_sources(scene), std::span(&vertex, 1)}, lit);
   return lit[0].color().r;
 }
 

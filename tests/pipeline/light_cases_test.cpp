@@ -10,7 +10,7 @@ namespace {
 glm::vec4 lit(const Scene& scene, const test::LightCase& of) {
   const Vertex<float> vertex{Vec4<float>(of.p_eye, 1), {}, of.n_eye};
   std::vector<Attributes> out;
-  light(scene, scene.draws[0], scene.meshes[0], light_sources(scene), std::span(&vertex, 1), out);
+  light({scene, scene.draws[0], scene.meshes[0], light_sources(scene), std::span(&vertex, 1)}, out);
   return out.at(0).color();
 }
 

@@ -36,7 +36,7 @@ Scene backs() {
 std::vector<Vec4<float>> carried_of(const Scene& scene, Varying v) {
   const std::vector<Vertex<float>> vertices(4, {{0, 0, -2, 1}, {}, {0, 0, -1}});
   std::vector<Attributes> attributes;
-  light(scene, scene.draws[0], scene.meshes[0], light_sources(scene), vertices, attributes);
+  light({scene, scene.draws[0], scene.meshes[0], light_sources(scene), vertices}, attributes);
   std::vector<Vec4<float>> out;
   for (const Attributes& a : attributes) out.push_back(a[v]);
   return out;

@@ -104,7 +104,7 @@ class PipelineLight : public testing::Test {
   }
   glm::vec4 lit() const {
     std::vector<Attributes> out;
-    light(scene_, draw_, scene_.meshes[draw_.mesh], light_sources(scene_), std::span(&vertex_, 1), out);
+    light({scene_, draw_, scene_.meshes[draw_.mesh], light_sources(scene_), std::span(&vertex_, 1)}, out);
     return out.at(0).color();
   }
   /// Leans the normal from +z towards +x by that angle.
@@ -251,7 +251,7 @@ TEST_F(PipelineLight, EachUnlitVertexHasItsOwnColour) {
   scene_.meshes.resize(1);
   scene_.meshes[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
   std::vector<Attributes> out;
-  light(scene_, draw_, scene_.meshes[draw_.mesh], light_sources(scene_), std::vector(3, vertex_), out);
+  light({scene_, draw_, scene_.meshes[draw_.mesh], light_sources(scene_), std::vector(3, vertex_)}, out);
   ASSERT_EQ(out.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(out[i].color(), scene_.meshes[0].colors[i]);
 }
@@ -269,7 +269,7 @@ TEST_F(PipelineLight, AppendsOneColourPerVertexInOrder) {
   scene_.lights[0].diffuse = glm::vec3(1);
   const std::vector<Vertex<float>> vertices = {vertex_, {{0, 0, -2, 1}, {}, {0, 0, -1}}};
   std::vector<Attributes> out(1);
-  light(scene_, draw_, scene_.meshes[draw_.mesh], light_sources(scene_), vertices, out);
+  light({scene_, draw_, scene_.meshes[draw_.mesh], light_sources(scene_), vertices}, out);
   ASSERT_EQ(out.size(), 3u);
   EXPECT_EQ(out[1].color(), glm::vec4(1));
   EXPECT_EQ(out[2].color(), glm::vec4(0, 0, 0, 1));

@@ -29,8 +29,8 @@ struct PassThrough {
       const Mesh& mesh = scene.meshes[draw.mesh];
       const auto first = static_cast<std::uint32_t>(vertices.size());
       transform(matrices(scene, draw), draw.normals, mesh, vertices);
-      production_stages().light(scene, draw, scene.meshes[draw.mesh], light_sources(scene),
-                                std::span(vertices).subspan(first), lit);
+      production_stages().light(
+          {scene, draw, scene.meshes[draw.mesh], light_sources(scene), std::span(vertices).subspan(first)}, lit);
       for (const glm::uvec3& t : mesh.triangles) triangles.push_back(t + first);
     }
   }

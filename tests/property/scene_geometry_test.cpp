@@ -74,7 +74,7 @@ void each_polygon(const Scene& scene, auto visit) {
     std::vector<Vertex<float>> vertices;
     stages.vertex(input.matrices, draw.normals, mesh, vertices);
     std::vector<pipeline::Attributes> attributes;
-    stages.light(scene, draw, scene.meshes[draw.mesh], {lights.begin(), lights.end()}, vertices, attributes);
+    stages.light({scene, draw, scene.meshes[draw.mesh], {lights.begin(), lights.end()}, vertices}, attributes);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       pipeline::Polygon polygon = stages.assemble(input, mesh.triangles[i], vertices, attributes);
       polygon.primitive = ranges[d].first_primitive + static_cast<std::uint32_t>(i);

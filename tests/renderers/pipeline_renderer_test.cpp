@@ -245,9 +245,8 @@ TEST(PipelineRenderer, SaysWhatItIsAbleToShow) {
 
 TEST(PipelineRenderer, AnotherStageFunctionIsUsedByCaptureAndByRunStage) {
   Stages stages = production_stages();
-  stages.light = [](const Scene&, const Draw&, const Mesh&, Lights, std::span<const Vertex<float>> vertices,
-                    std::vector<Attributes>& out) {
-    for (std::size_t i = 0; i < vertices.size(); ++i) out.push_back({{Vec4<float>(0.25f, 0.5f, 0.75f, 1)}});
+  stages.light = [](const LightInput& in, std::vector<Attributes>& out) {
+    for (std::size_t i = 0; i < in.vertices.size(); ++i) out.push_back({{Vec4<float>(0.25f, 0.5f, 0.75f, 1)}});
   };
   const auto changed = make_pipeline(stages);
   const Scene scene = boxes();

@@ -15,7 +15,7 @@ struct Lamps {
   float ours() const {
     const Vertex<float> vertex{{0, 0, -5, 1}, {0, 0, 0, 1}, n};
     std::vector<pipeline::Attributes> lit;
-    pipeline::light(scene, draw, scene.meshes[draw.mesh], pipeline::light_sources(scene), std::span(&vertex, 1), lit);
+    pipeline::light({scene, draw, scene.meshes[draw.mesh], pipeline::light_sources(scene), std::span(&vertex, 1)}, lit);
     return lit[0].color().r;
   }
 };
