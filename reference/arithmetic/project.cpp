@@ -140,8 +140,8 @@ void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, T
   }
 }
 
-/// edge_displacement() of the edges of a triangle's visible part. Edge functions are stepped over the box of all that is
-/// between the near and far planes.
+/// edge_displacement() of the edges of a triangle's visible part. Edge functions are stepped over the box of all that
+/// is between the near and far planes.
 glm::dvec2 of_edges(const Projected& scene, const std::array<const Corner*, 3>& c, const Triangle& t,
                     std::span<const glm::dvec2> outline) {
   const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;

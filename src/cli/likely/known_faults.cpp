@@ -280,6 +280,13 @@ bool is_of(const StageSet& stages, const KnownFault& f) {
   return at != kStageNames.end() && stages.has(static_cast<Stage>(at - kStageNames.begin()));
 }
 
+bool makes_wrong(const StageSet& stages, const KnownFault& f) {
+  constexpr std::array<std::string_view, 4> kOfAttributes = {"shade.texture_ignored", "shade.texture_stays",
+                                                             "shade.fog_ignored", "shade.fog_stays"};
+  return is_of(stages, f) || (stages.has(Stage::vertex) && f.name == "visibility.draws_reversed") ||
+         (stages.has(Stage::light) && is_among(f.name, kOfAttributes));
+}
+
 std::vector<KnownFault> picture_faults() {
   const FrameFormat square;
   std::vector<KnownFault> all = of_pictures(square), out;
@@ -322,7 +329,7 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
   }
   // Faults that alter alpha come before alpha that is not written.
   if (given.has_alpha) out.push_back(alpha_not_written(scene.frame));
-  std::erase_if(out, [&](const KnownFault& f) { return is_of(given.right, f); });
+  std::erase_if(out, [&](const KnownFault& f) { return is_of(given.right, f) && !makes_wrong(given.wrong, f); });
   for (KnownFault& f : out) {
     f.is_contradicted = is_contradicted(f.name, given.conventions);
     if (f.is_contradicted) f.says += "; the conventions declare otherwise: run plumb learn again";

@@ -128,7 +128,7 @@ const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, cons
     return 10 * left(l) <= out.apart && l.legal.against[look] <= out.apart - left(l);
   };
   const auto is_of_wrong = [&](const Lookalike& l) {
-    return std::ranges::any_of(l.faults, [&](const KnownFault* f) { return is_of(wrong, *f); });
+    return std::ranges::any_of(l.faults, [&](const KnownFault* f) { return makes_wrong(wrong, *f); });
   };
   // The stages after coverage may be wrong by roundings alone, beside the fault that the frame shows.
   const bool by_wrong =

@@ -68,7 +68,7 @@ const std::vector<Case> kStates = {{"matrices.depth_range_ignored", "depth_range
                                    {"clip.last_triangle_lost", "depth/interpenetrating"},
                                    {"clip.smooth_shading_ignored", "light/sphere_gouraud"},
                                    {"clip.flat_shading_ignored", "frame/one_pixel"},
-                                   {"clip.depth_clamp_ignored", "notes/tinyrenderer_floor"},
+                                   {"clip.depth_clamp_ignored", "depth_range/clamped"},
                                    {"window.cull_ignored", "cull/both_windings"},
                                    {"window.cull_stays", "cull/set_and_unset"},
                                    {"window.polygon_mode_ignored", "lines/beneath_points"},
@@ -154,7 +154,8 @@ TEST(MisreadStates, AreNamedByTheirStagesAndAsLikelyFaults) {
     const check::Diagnosis diagnosis = check::diagnose_in_brief(scene, candidate, references);
     ASSERT_TRUE(diagnosis.first.has_value());
     EXPECT_EQ(name_of(*diagnosis.first), c.named.empty() ? fault->stage : c.named);
-    const Lookalikes found = lookalikes(scene, {draw_with(std::vector{&*fault}, scene, {}), {}, {}});
+    const Capture left = candidate.capture(scene, {});
+    const Lookalikes found = lookalikes(scene, frame_of(left, candidate.info(), diagnosis.verdict));
     EXPECT_TRUE(found.whole) << found.text;
     EXPECT_NE(found.text.find(c.fault), std::string::npos) << found.text;
   }
