@@ -176,13 +176,25 @@ int snapped_side(const WindowTriangle<double>& t, const Conventions& conventions
   });
 }
 
+// Whether the area by equation 3.6 (OpenGL 2.1) in float may have either sign: its six products and their sum round by
+// 6 u of the products, and the positions by 2 u.
+bool may_face_either_way(const WindowTriangle<double>& t) {
+  long double area = 0, products = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::vec<2, long double> p(t.v[i].p_win), q(t.v[(i + 1) % 3].p_win);
+    area += p.x * q.y - p.y * q.x;
+    products += std::abs(p.x * q.y) + std::abs(p.y * q.x);
+  }
+  return std::abs(area) <= 8 * 0x1p-24L * products;
+}
+
 // Facing of a triangle that its draw has not culled: by the snapped corners, unless that face is culled, and the
-// triangle has no area on the grid, or the other face without snapping.
+// triangle has no area on the grid, or may have the other face without snapping.
 bool faces_front(const WindowTriangle<double>& t, const Draw& draw, const Conventions& conventions) {
   const int side = snapped_side(t, conventions);
   const bool front = side > 0, is_culled = draw.cull == (front ? Cull::front : Cull::back);
   if (!is_culled) return front;
-  const bool is_other = side == 0 || (unsnapped_side(t) > 0) != front;
+  const bool is_other = side == 0 || (unsnapped_side(t) > 0) != front || may_face_either_way(t);
   return is_other ? !front : front;
 }
 

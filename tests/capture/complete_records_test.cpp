@@ -346,6 +346,8 @@ TEST(CompleteRecords, FaceWhatIsNotCulled) {
   EXPECT_FALSE(front(2, 1, Cull::none)) << "no area on the grid";
   EXPECT_TRUE(front(2, 1, Cull::back));
   EXPECT_FALSE(front(2, 1, Cull::front));
+  EXPECT_FALSE(front(0.02, Conventions::kFloat, Cull::front)) << "by equation 3.6 in float";
+  EXPECT_TRUE(front(0.04, Conventions::kFloat, Cull::front));
 }
 
 TEST(CompleteRecords, RefuseToGuessTheFacingOfOutlines) {

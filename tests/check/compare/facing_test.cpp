@@ -106,6 +106,19 @@ TEST_F(Outline, OfAStrangerIsFacedByEitherArea) {
   EXPECT_TRUE(by_either(filled, drawn, filled.records));
 }
 
+// Equation 3.6 in float is off by 0.0034 pixel^2 there: 6 u of products that sum to 9,600.
+TEST_F(Outline, OfAStrangerIsFacedByTheEquationInFloat) {
+  Conventions in_float;
+  in_float.subpixel_bits = Conventions::kFloat;
+  const auto may_be_back = [&](double twice_the_area, FacingArea area) {
+    const OutlineScene o(twice_the_area / 20 * 256);
+    return passes(compare_window(o.scene, o.back(), o.front(), 4, in_float, 0, area));
+  };
+  EXPECT_TRUE(may_be_back(0.002, FacingArea::either));
+  EXPECT_FALSE(may_be_back(0.006, FacingArea::either));
+  EXPECT_FALSE(may_be_back(0.002, FacingArea::snapped)) << "by differences of positions";
+}
+
 // The last corner of a polygon dents it by two steps of the grid, so that the last triangle of its fan is a back face.
 TEST_F(Outline, OfAStrangerIsFacedTriangleByTriangleOrAsAPolygon) {
   OutlineScene dented;
