@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -54,10 +55,18 @@ class RunComparison {
   bool is_alike(const WindowTriangle<double>& a, const WindowTriangle<double>& b) const {
     if (a.corners != b.corners || a.front != b.front) return false;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3<double> error = error_of(b, k), off = glm::abs(a.v[k].p_win - b.v[k].p_win);
-      if (!(off.x <= error.x && off.y <= error.y && off.z <= error.z)) return false;
+      if (!is_at(a.v[k], b.v[k], error_of(b, k))) return false;
     }
     return true;
+  }
+
+  static bool is_at(const WindowVertex<double>& a, const WindowVertex<double>& b, const Vec3<double>& error) {
+    const Vec3<double> off = glm::abs(a.p_win - b.p_win);
+    return off.x <= error.x && off.y <= error.y && off.z <= error.z;
+  }
+
+  bool is_near(const WindowVertex<double>& a, const WindowVertex<double>& b, const Vec3<double>& error) const {
+    return is_at(a, b, error) && std::abs(a.inv_w - b.inv_w) <= factor_ * u * std::abs(b.inv_w);
   }
 
   Vec3<double> error_of(const WindowTriangle<double>& t, std::size_t k) const {
@@ -118,16 +127,19 @@ class RunComparison {
     return true;
   }
 
-  // compare(), with the other begun at the corner from which it fits best: positions first, then colours.
+  // compare(), with the other begun at the corner from which it fits best: within the errors of positions and 1/w (of
+  // corners at one place, 1/w alone tells them apart), then nearest in place, then in colour.
   void compare_turned(const WindowTriangle<double>& a, WindowTriangle<double> b, Colors colors, std::size_t number) {
     const auto apart = [&](std::size_t turn) {
+      int misfits = 0;
       double places = 0, shades = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto &v = a.v[k], &w = b.v[(k + turn) % 3];
+        misfits += is_near(v, w, error_of(b, (k + turn) % 3)) ? 0 : 1;
         places = std::max(places, glm::length(v.p_win - w.p_win));
         shades = std::max(shades, glm::length(v.color - colors[(k + turn) % 3]));
       }
-      return std::pair(places, shades);
+      return std::tuple(misfits, places, shades);
     };
     const std::size_t turn = best_turn(a, apart);
     std::rotate(b.v.begin(), b.v.begin() + static_cast<std::ptrdiff_t>(turn), b.v.end());

@@ -106,6 +106,30 @@ TEST_F(Outline, OfAStrangerIsFacedByEitherArea) {
   EXPECT_TRUE(by_either(filled, drawn, filled.records));
 }
 
+// A triangle whose corners lie at one place, at w of 1, 2 and 4: a stranger may begin it at any of them.
+TEST_F(Outline, CornersAtOnePlaceAreToldApartByTheirW) {
+  scene.draws[0].front_mode = scene.draws[0].back_mode = PolygonMode::fill;
+  const Vec3<double> place(30, 40, 0.5);
+  const Matrices<double>& m = records.matrices[0];
+  WindowTriangle<double> t = triangle_of({place, place, place}, {1, 1, 1}, 0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double w = k == 0 ? 1 : k == 1 ? 2 : 4;
+    records.polygons.vertices[k].p_clip = glm::dvec4((place - m.win_translate) / m.win_scale * w, w);
+    t.v[k].inv_w = 1 / w;
+    t.v[k].color = records.polygons.vertices[k].color = Vec4<double>(1);
+  }
+  Conventions in_float;
+  in_float.subpixel_bits = Conventions::kFloat;
+  const auto passes_with = [&](double factor) {
+    Records<double> drawn = records;
+    drawn.triangles.push_back(t);
+    drawn.triangles[0].v[1].inv_w *= factor;
+    return passes(compare_window(scene, drawn, records, 4, in_float, 0, FacingArea::either));
+  };
+  EXPECT_TRUE(passes_with(1));
+  EXPECT_FALSE(passes_with(1 + 8 * kU));
+}
+
 // Equation 3.6 in float is off by 0.0034 pixel^2 there: 6 u of products that sum to 9,600.
 TEST_F(Outline, OfAStrangerIsFacedByTheEquationInFloat) {
   Conventions in_float;
