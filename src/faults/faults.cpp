@@ -14,7 +14,7 @@ namespace {
 std::vector<Fault> of_all_stages() {
   std::vector<Fault> out;
   for (const auto list : {of_vertices, of_light, of_light_terms, of_polygons, of_raster, of_scanline, of_textures,
-                          of_merge, of_corner_values}) {
+                          of_fog, of_merge, of_corner_values}) {
     out.insert(out.end(), list().begin(), list().end());
   }
   return out;

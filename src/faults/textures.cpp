@@ -218,42 +218,6 @@ pipeline::Shaded decal_turned_round(const pipeline::Surface& surface, bool front
   return {pipeline::shade<float>(surface, front, turned)};
 }
 
-constexpr auto kNoFog = [](Draw& draw) { draw.fog.reset(); };
-
-pipeline::Shaded fogged_alpha(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
-  Color<float> color = pipeline::shade<float>(surface, front, attributes);
-  if (surface.draw->fog) color.a *= pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
-  return {color};
-}
-
-// of_fragment * the fragment's colour + of_fog * the fog's.
-pipeline::Shaded with_fog(const pipeline::Surface& surface, const Color<float>& color, float of_fragment,
-                          float of_fog) {
-  const glm::vec3& fog = surface.draw->fog->color;
-  return {{of_fragment * color.r + of_fog * fog.r, of_fragment * color.g + of_fog * fog.g,
-           of_fragment * color.b + of_fog * fog.b, color.a}};
-}
-
-pipeline::Shaded fog_added(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
-  if (!surface.draw->fog) return {pipeline::shade<float>(surface, front, attributes)};
-  const float f = pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
-  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes).color, 1, 1 - f);
-}
-
-pipeline::Shaded fog_near(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
-  if (!surface.draw->fog) return {pipeline::shade<float>(surface, front, attributes)};
-  const float f = pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
-  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes).color, 1 - f, f);
-}
-
-// Linear fog whose factor is above 1 before its start, and below 0 beyond its end.
-pipeline::Shaded fog_unclamped(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
-  const std::optional<Fog>& fog = surface.draw->fog;
-  if (!fog || fog->mode != Fog::Mode::linear) return {pipeline::shade<float>(surface, front, attributes)};
-  const float f = (fog->end - std::abs(attributes[Varying::position].b)) / (fog->end - fog->start);
-  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes).color, f, 1 - f);
-}
-
 constexpr std::array kTextures = {
     stage_fault("texture.t_flipped", "textures are upside down", put<&Stages::texture, flipped_t>),
     stage_fault("texture.s_for_t", "s and t change places", put<&Stages::texture, s_for_t>),
@@ -308,12 +272,6 @@ constexpr std::array kTextures = {
     stage_fault("shade.no_environment_color", "the texture environment's colour is black",
                 put<&Stages::shade, shaded_under<kNoEnvironmentColor>>),
     stage_fault("shade.texel_alpha_ignored", "texels' alpha is taken for 1", put<&Stages::shade, texel_alpha_ignored>),
-    stage_fault("shade.fogged_alpha", "fog takes alpha too", put<&Stages::shade, fogged_alpha>),
-    stage_fault("shade.fog_added", "fog is added to a colour, which does not fade into it",
-                put<&Stages::shade, fog_added>, "godotengine/godot#12454"),
-    stage_fault("shade.fog_near", "fog is thick near the eye, and thin far away", put<&Stages::shade, fog_near>),
-    stage_fault("shade.fog_unclamped", "the factor of linear fog is not clamped to [0, 1]",
-                put<&Stages::shade, fog_unclamped>),
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "faults/faults.h"
 #include "kernels/shade.h"
 #include "pipeline/geometry.h"
 #include "renderers/pipeline_renderer.h"
@@ -31,8 +32,8 @@ void light_with_fog_factors(const pipeline::LightInput& in, std::vector<pipeline
     out[first + i][Varying::position].b = factor(*in.draw.fog, distance(glm::vec3(in.vertices[i].p_eye)));
 }
 
-/// Stage shade, with factors of fog of distance(what is interpolated in place of the fragment's p_eye).
-template <auto factor, auto distance = z_of>
+/// Stage shade, with factors of fog of what is interpolated in place of the fragment's eye-space z.
+template <auto factor>
 pipeline::Shaded shade_with_fog_factors(const pipeline::Surface& surface, bool front,
                                         const pipeline::SurfaceAttributes<float>& attributes) {
   Draw clear = *surface.draw;
@@ -41,8 +42,7 @@ pipeline::Shaded shade_with_fog_factors(const pipeline::Surface& surface, bool f
   without.draw = &clear;
   const pipeline::Color<float> color = pipeline::shade<float>(without, front, attributes);
   if (!surface.draw->fog) return {color};
-  const pipeline::Color<float>& p_eye = attributes[Varying::position];
-  const float f = factor(*surface.draw->fog, distance({p_eye.r, p_eye.g, p_eye.b}));
+  const float f = factor(*surface.draw->fog, attributes[Varying::position].b);
   const glm::vec3& fog = surface.draw->fog->color;
   return {{f * color.r + (1 - f) * fog.r, f * color.g + (1 - f) * fog.g, f * color.b + (1 - f) * fog.b, color.a}};
 }
@@ -60,9 +60,7 @@ std::unique_ptr<Renderer> make_fog_by_vertices() {
 
 /// `fog_distance` eye_radial.
 inline std::unique_ptr<Renderer> make_radial_fog() {
-  pipeline::Stages stages = pipeline::production_stages();
-  stages.shade = shade_with_fog_factors<pipeline::fog_factor<float>, length_of>;
-  return pipeline::make_pipeline(stages);
+  return pipeline::make_pipeline(faults::named("shade.fog_radial").stages());
 }
 
 inline pipeline::Color<float> as_codes(const pipeline::Color<float>& color) {

@@ -243,6 +243,7 @@ std::vector<std::string_view> declared_faults(const Scene& scene, const Conventi
   // The fault interpolates all attributes alike: colours alone, where the scene has no texture.
   const Conventions::Interpolation of_all = textured(scene) ? c.interpolation : interpolation_of_colors(c);
   if (of_all == Conventions::Interpolation::affine) out.push_back("attributes.affine");
+  if (c.fog_distance == Conventions::FogDistance::eye_radial) out.push_back("shade.fog_radial");
   if (c.tie_rule == inclusive) out.push_back("coverage.inclusive_edges");
   if (c.tie_rule == exclusive) out.push_back("notes.000.strict_edges");
   if (c.tie_rule == left_top) out.push_back("coverage.top_for_bottom");

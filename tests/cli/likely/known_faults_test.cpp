@@ -182,10 +182,11 @@ TEST(KnownFaults, OfWholePixelsAreDeclaredWhereverPixelsAreSampled) {
 
 // Frames of an affine renderer, of another tie rule or of whole pixels: what the conventions declare is drawn, and is
 // no fault.
-TEST(KnownFaults, AreDrawnByDeclaredInterpolationTiesAndWholePixels) {
-  C affine, affine_colors, exclusive, inclusive, left_top, whole_pixels;
+TEST(KnownFaults, AreDrawnByDeclaredInterpolationFogTiesAndWholePixels) {
+  C affine, affine_colors, radial, exclusive, inclusive, left_top, whole_pixels;
   affine.interpolation = C::Interpolation::affine;
   affine_colors.color_interpolation = C::ColorInterpolation::affine;
+  radial.fog_distance = C::FogDistance::eye_radial;
   exclusive.tie_rule = C::TieRule::exclusive;
   inclusive.tie_rule = C::TieRule::inclusive;
   left_top.tie_rule = C::TieRule::left_top;
@@ -200,6 +201,7 @@ TEST(KnownFaults, AreDrawnByDeclaredInterpolationTiesAndWholePixels) {
   for (const auto& [declared, name, drawn, fault] :
        {Case{affine, "interpolation/w_ratio", "attributes.affine", "file.mirrored"},
         {affine_colors, "interpolation/w_ratio", "attributes.affine", "file.mirrored"},
+        {radial, "fog/exp", "shade.fog_radial", "file.mirrored"},
         {exclusive, "coverage/shared_edges", "notes.000.strict_edges", "file.mirrored"},
         {inclusive, "coverage/shared_edges", "coverage.inclusive_edges", "file.mirrored"},
         {whole_pixels, "interpolation/tiny", "window.whole_pixels", "file.mirrored"},
