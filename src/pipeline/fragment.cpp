@@ -42,13 +42,13 @@ FilteredTexel<float> filtered(const Stages& stages, const TextureSetup& texture,
   return stages.texture(texture, {texcoords.r, texcoords.g}, gradients<float>(setup.gradients, at, q));
 }
 
-bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool passes_depth, const Shaded& shaded,
-                  float color_scale, std::uint8_t* held) {
+bool passes_tests(const Stages& stages, const Draw& draw, const TestedFragment& fragment, float color_scale) {
+  const auto& [front, passes_depth, shaded, stencil] = fragment;
   bool alive = !shaded.discarded && (passes_depth || draw.stencil);
   if (draw.alpha_test) alive = alive && stages.alpha_passes(*draw.alpha_test, shaded.color.a, color_scale);
   if (!draw.stencil) return alive;
   const StencilFace& face = front ? draw.stencil->front : draw.stencil->back;
-  return stages.stencil_test(face, alive, passes_depth, held) && passes_depth;
+  return stages.stencil_test(face, alive, passes_depth, stencil) && passes_depth;
 }
 
 void write_color(const Stages& stages, const Merge& state, const Color<float>& color, float color_scale,

@@ -24,11 +24,16 @@ SurfaceAttributes<float> interpolated(const Stages& stages, const Surface& surfa
 FilteredTexel<float> filtered(const Stages& stages, const TextureSetup& texture, const TriangleSetup& setup,
                               const Color<float>& texcoords, const Pixels<float>& pixel);
 
+/// Input of stage 10 for one fragment.
+struct TestedFragment {
+  bool front;             ///< its triangle's facing
+  bool passes_depth;      ///< the depth test's answer
+  const Shaded& shaded;   ///< stage 9's
+  std::uint8_t* stencil;  ///< the pixel's value; may be null where the draw has no stencil test
+};
 /// Stage 10: whether the fragment is not discarded and passes alpha, stencil and depth test, in this order (OpenGL 2.1
-/// spec, chapter 4.1). `passes_depth`: the depth test's answer. `held`: the pixel's stencil value, which changes where
-/// the draw has a stencil test; else not read, it may be null.
-bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool passes_depth, const Shaded& shaded,
-                  float color_scale, std::uint8_t* held);
+/// spec, chapter 4.1). A stencil test changes the pixel's value.
+bool passes_tests(const Stages& stages, const Draw& draw, const TestedFragment& fragment, float color_scale);
 
 /// Stage 11 of a fragment that is drawn: the stored colour by the blend equation, the logic op or as the fragment's,
 /// in the channels of the mask.

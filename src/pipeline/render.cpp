@@ -94,7 +94,7 @@ void draw_primitives(const PreparedDraw& d, const FrameFormat& format, const Sta
 
         // 10. Visibility: alpha, stencil and depth test.
         const bool drawn =
-            passes_tests(stages, draw, triangle.front, passes_depth, shaded, formats.color_scale, to.stencil);
+            passes_tests(stages, draw, {triangle.front, passes_depth, shaded, to.stencil}, formats.color_scale);
         records.fragment({pixel, z, &attributes, shaded.color, drawn});
 
         // 11. Merge: depth, blending, logic op, masks.

@@ -189,8 +189,8 @@ class OneStage {
                 const FramePixel& at) const {
     const auto passes = [&](const Draw& by) {
       const bool passes_depth = stages_.depth_passes(by.depth_func, f.z, *at.depth);
-      return passes_tests(stages_, by, triangle.front, passes_depth, {f.shaded}, formats_of(scene_.frame).color_scale,
-                          at.stencil);
+      return passes_tests(stages_, by, {triangle.front, passes_depth, {f.shaded}, at.stencil},
+                          formats_of(scene_.frame).color_scale);
     };
     if (stage_ == Stage::visibility) return passes(draw);
     if (!records_.drawn.empty()) return records_.drawn[i].drawn;
