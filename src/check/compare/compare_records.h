@@ -49,14 +49,18 @@ struct FloatRange {
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                         double factor, LitPart part = {}, const FloatRange& range = {});
 
-/// Compares window triangles with exact ones. Tolerance of p_win and 1/w: `factor` u of their magnitudes. Snapped
-/// positions must be the candidate's own p_win, rounded to the grid of its conventions (under FacingArea::either, half
-/// way between two grid positions: to either). Another facing, and a missing or extra triangle, is legal where the
-/// candidate's clip polygons leave it open, by `area` (legal_window.h). Colours must be those of the face, but for
-/// `colors` u of the value (at least of 1).
+/// Rules of a candidate's window triangles.
+struct WindowRules {
+  double factor;                          ///< tolerance of p_win and 1/w [u of their magnitudes]
+  Conventions conventions = {};           ///< the grid of snapped positions, and the sample
+  double colors = 0;                      ///< tolerance of colours [u of the value, at least of 1]
+  FacingArea area = FacingArea::snapped;  ///< decides facings (legal_window.h)
+};
+/// Compares window triangles with exact ones. Snapped positions must be the candidate's own p_win, rounded to the grid
+/// (under FacingArea::either, half way between two grid positions: to either). Another facing, and a missing or extra
+/// triangle, is legal where the candidate's clip polygons leave it open. Colours must be those of the face.
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor, const Conventions& conventions = {}, double colors = 0,
-                           FacingArea area = FacingArea::snapped);
+                           const WindowRules& rules);
 /// Compares window triangles bit for bit (as floats), 1/w with tolerance `factor` [ULP]. Colours are not compared:
 /// OpenGL's feedback gives none for flat draws. `turned`: primitives, counted as ambiguous, that the two sides may
 /// legally draw as different faces (legal_window.h, turned_outlines).

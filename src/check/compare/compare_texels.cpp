@@ -85,13 +85,13 @@ TexelRange legal_texels_in_float(const Textured& of, double lod_lo, double lod_h
   return out;
 }
 
-// Whether a level of detail is a legal one clamped to [0, q] (OpenGL 2.1, 3.8.8), the sampler's levels: its texel is
-// then judged by the legal one.
-bool is_clamped(const Texture* texture, double lod, const TexelRange& legal) {
+// Whether a level of detail is a legal one, or exact's, clamped to [0, q] (OpenGL 2.1, 3.8.8), the sampler's levels:
+// its texel is then judged by the legal one. (Where the filters do not depend on the level, `legal` has none.)
+bool is_clamped(const Texture* texture, double lod, const TexelRange& legal, double exact) {
   if (texture == nullptr) return false;
   const int largest = static_cast<int>(texture->levels.size()) - 1;
   const int last = std::min(largest, texture->sampler.max_level) - texture->sampler.base_level;
-  return (lod == 0 && legal.lambda_lo < 0) || (lod == last && legal.lambda_hi > last);
+  return (lod == 0 && std::min(legal.lambda_lo, exact) < 0) || (lod == last && std::max(legal.lambda_hi, exact) > last);
 }
 
 // Adds what texels become that are rounded to the frame's codes (Conventions::fragment_colors), beyond [0,1] too: these
@@ -135,7 +135,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
     const Covered& c = candidate.covered[i];
     const Texel<double>&a = candidate.texels[i], &b = reference.texels[i];
     const Textured of = textured_fragment(draws, candidate, i);
-    const bool lacks_lod = is_foreign && (std::isnan(a.lod) || is_clamped(of.texture, a.lod, (*legal)[i]));
+    const bool lacks_lod = is_foreign && (std::isnan(a.lod) || is_clamped(of.texture, a.lod, (*legal)[i], b.lod));
     const double unit = u * magnitudes.at(of.texture);
     TexelRange range;
     if (is_foreign) {

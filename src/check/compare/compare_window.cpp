@@ -36,14 +36,8 @@ Colors colors_of(const WindowTriangle<double>& t) { return {t.v[0].color, t.v[1]
 // primitive.
 class RunComparison {
  public:
-  RunComparison(Meter& meter, const Scene& scene, const Records<double>& candidate, double factor,
-                const Conventions& conventions, double colors, FacingArea area)
-      : meter_(meter),
-        factor_(factor),
-        conventions_(conventions),
-        colors_(colors),
-        area_(area),
-        legal_(scene, candidate, factor, area, conventions) {}
+  RunComparison(Meter& meter, const Scene& scene, const Records<double>& candidate, const WindowRules& rules)
+      : meter_(meter), rules_(rules), legal_(scene, candidate, rules.factor, rules.area, rules.conventions) {}
 
   void operator()(Run mine, Run theirs, std::size_t first) {
     const bool alike = std::ranges::equal(mine, theirs, [&](const auto& a, const auto& b) { return is_alike(a, b); });
@@ -66,7 +60,7 @@ class RunComparison {
   }
 
   bool is_near(const WindowVertex<double>& a, const WindowVertex<double>& b, const Vec3<double>& error) const {
-    return is_at(a, b, error) && std::abs(a.inv_w - b.inv_w) <= factor_ * u * std::abs(b.inv_w);
+    return is_at(a, b, error) && std::abs(a.inv_w - b.inv_w) <= rules_.factor * u * std::abs(b.inv_w);
   }
 
   Vec3<double> error_of(const WindowTriangle<double>& t, std::size_t k) const {
@@ -96,7 +90,7 @@ class RunComparison {
       return std::ranges::find_if(lists, [&](const auto& list) { return legal_.match(run, list).has_value(); });
     };
     const auto my_list = list_of(mine), their_list = list_of(theirs);
-    const bool is_own_grid = conventions_.subpixel_bits != Conventions::kFloat;
+    const bool is_own_grid = rules_.conventions.subpixel_bits != Conventions::kFloat;
     if (my_list == lists.end() || (is_own_grid && their_list == lists.end())) return false;
     using Answers = std::vector<std::size_t>;
     const Answers my_answers = legal_.match(mine, *my_list).value(),
@@ -152,16 +146,16 @@ class RunComparison {
                std::size_t number) {
     for (std::size_t k = 0; k < 3; ++k) {
       const WindowVertex<double>&v = a.v[k], &w = b.v[k];
-      add(meter_, v.p_win, w.p_win, error_of(b, k) / factor_, factor_, at(number, "p_win"));
-      meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_,
+      add(meter_, v.p_win, w.p_win, error_of(b, k) / rules_.factor, rules_.factor, at(number, "p_win"));
+      meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), rules_.factor,
                    at(number, "inv_w"), v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
-        const double place = (v.p_win[c] - 0.5) * kSubpixel, own = snapped(conventions_, c, place),
+        const double place = (v.p_win[c] - 0.5) * kSubpixel, own = snapped(rules_.conventions, c, place),
                      given = v.snapped[c];
-        const bool may_be = area_ == FacingArea::either && may_be_snapped(c, place, given);
+        const bool may_be = rules_.area == FacingArea::either && may_be_snapped(c, place, given);
         meter_.value(may_be ? 0 : difference(given, own), 0, at(number, "snapped"), given, own);
       }
-      const Vec4<double> allowance = colors_ * u * glm::max(glm::abs(colors[k]), Vec4<double>(1));
+      const Vec4<double> allowance = rules_.colors * u * glm::max(glm::abs(colors[k]), Vec4<double>(1));
       add(meter_, v.color, colors[k], Vec4<double>(u), 0, at(number, "color"), allowance);
     }
     meter_.value(a.corners == b.corners ? 0 : kInfinite, 0, at(number, "corners"), a.corners, b.corners);
@@ -171,38 +165,35 @@ class RunComparison {
   // True if a foreign renderer may snap `place` [1/256 pixel] to the grid position `other`. Rounded to the nearest, and
   // half way between two: to either, for no specification says which; exact takes the even one.
   bool may_be_snapped(int axis, double place, double other) const {
-    if (conventions_.subpixel_bits == Conventions::kFloat || conventions_.subpixel_bits > 8) return false;
-    if (conventions_.subpixel_rounding != Conventions::Rounding::nearest) {
-      const auto [least, most] = snapped_range(conventions_, axis, place);
+    if (rules_.conventions.subpixel_bits == Conventions::kFloat || rules_.conventions.subpixel_bits > 8) return false;
+    if (rules_.conventions.subpixel_rounding != Conventions::Rounding::nearest) {
+      const auto [least, most] = snapped_range(rules_.conventions, axis, place);
       return other == least || other == most;
     }
-    const double steps = in_steps(conventions_, axis, place / kSubpixel + 0.5);
-    const double quarter = std::exp2(6 - conventions_.subpixel_bits);  // of a step
-    return steps - std::floor(steps) == 0.5 && (other == snapped(conventions_, axis, place - quarter) ||
-                                                other == snapped(conventions_, axis, place + quarter));
+    const double steps = in_steps(rules_.conventions, axis, place / kSubpixel + 0.5);
+    const double quarter = std::exp2(6 - rules_.conventions.subpixel_bits);  // of a step
+    return steps - std::floor(steps) == 0.5 && (other == snapped(rules_.conventions, axis, place - quarter) ||
+                                                other == snapped(rules_.conventions, axis, place + quarter));
   }
 
   static Place at(std::size_t number, const char* field) { return {-1, -1, static_cast<std::int64_t>(number), field}; }
 
   Meter& meter_;
-  double factor_;
-  const Conventions& conventions_;
-  double colors_;
-  FacingArea area_;
+  const WindowRules& rules_;
   LegalWindow legal_;
 };
 
 }  // namespace
 
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor, const Conventions& conventions, double colors, FacingArea area) {
+                           const WindowRules& rules) {
   const auto &a = candidate.triangles, &b = reference.triangles;
   if (candidate.matrices.empty() || candidate.matrices.size() != scene.draws.size()) {
     return mismatch("u", fmt::format("{} matrices for {} draws", candidate.matrices.size(), scene.draws.size()),
                     std::max(a.size(), b.size()));
   }
   Meter meter("u");
-  RunComparison compare(meter, scene, candidate, factor, conventions, colors, area);
+  RunComparison compare(meter, scene, candidate, rules);
   matched_by_primitive(Run(a), Run(b), [&](Run mine, Run theirs) {
     compare(mine, theirs, mine.empty() ? 0 : static_cast<std::size_t>(mine.data() - a.data()));
   });

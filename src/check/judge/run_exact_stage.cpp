@@ -37,14 +37,11 @@ double from_origin(const SceneJudgement& c, Stage stage) {
 // Width and height of a frame [pixels].
 glm::dvec2 size_of(const FrameFormat& frame) { return {frame.width, frame.height}; }
 
-// Roundings of a stranger's colours at corners: a stranger may undo a product by 1/w, or hold fixed point of 16 bits.
-double corner_roundings(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
-
-FacingArea facing_area(const SceneJudgement& c) { return c.foreign ? FacingArea::either : FacingArea::snapped; }
-
-// Roundings of a stranger's clip positions that no plane cuts, u of the largest coordinate: of a view volume [0,w] in
-// z, z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again (largest seen: 1.2 u).
-constexpr double kCopiedVertices = 4;
+// A stranger's colours at corners may be 4 u off: it may undo a product by 1/w, or hold fixed point of 16 bits.
+WindowRules window_rules(const SceneJudgement& c, double factor) {
+  if (!c.foreign) return {factor, c.conventions};
+  return {factor, c.conventions, 4, FacingArea::either};
+}
 
 // Roundings of a stranger's colours that no step of shading changes, u of the colour: c * 255 and c / 255 are one each,
 // as in GAMES101's framework, and so are a product by a white light and its sum (largest seen: 1 u).
@@ -55,7 +52,7 @@ double copied_colors(const SceneJudgement& c) { return c.foreign ? 4 : 0; }
 Measurement compare_clipped(const SceneJudgement& c, const Records<double>& mine, const Records<double>& theirs,
                             double factor, FlatColors of_flat) {
   if (!c.foreign) return compare_polygons(c.scene, mine, theirs, factor, of_flat);
-  return compare_polygons(c.scene, cut_at_sides(mine), theirs, factor, of_flat, kCopiedVertices);
+  return compare_polygons(c.scene, cut_at_sides(c.scene, mine, factor), theirs, factor, of_flat, kCopiedVertices);
 }
 
 // Compares a varying in the stage's comparator, in place of the colour.
@@ -70,8 +67,7 @@ Measurement compare_varying(const SceneJudgement& c, Stage stage, Varying v, con
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
   if (stage == Stage::clip)
     return compare_clipped(c, a, b, factor, is_lit(v) ? FlatColors::provoking : FlatColors::own);
-  if (stage == Stage::window)
-    return compare_window(scene, a, b, factor, c.conventions, corner_roundings(c), facing_area(c));
+  if (stage == Stage::window) return compare_window(scene, a, b, window_rules(c, factor));
   if (c.foreign && v == Varying::normal) stretch_unit_normals(a.attributes, b.attributes);
   return compare_attributes(a, b, factor, from_origin(c, stage), c.conventions, size_of(c.scene.frame));
 }
@@ -245,9 +241,7 @@ void compare_stage(const SceneJudgement& c, const Capture& made, Stage stage, co
     case Stage::clip:
       return add([&](double f) { return varyings(compare_clipped(c, mine, theirs, f, FlatColors::provoking)); });
     case Stage::window:
-      return add([&](double f) {
-        return varyings(compare_window(c.scene, mine, theirs, f, c.conventions, corner_roundings(c), facing_area(c)));
-      });
+      return add([&](double f) { return varyings(compare_window(c.scene, mine, theirs, window_rules(c, f))); });
     case Stage::coverage: return compare_coverage_stage(c, made, name);
     case Stage::depth: return add([&](double f) { return depths_by_exact(c, made, f); });
     case Stage::attributes:

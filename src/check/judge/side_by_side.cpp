@@ -114,7 +114,7 @@ void compare_shown(const SceneJudgement& c, const Capture& theirs, Stage stage, 
                                   Inversion::in_float));
     case Stage::light: return add(compare_lit(c.scene, mine, theirs.records, factor_of(stage), {}, kOfMesa));
     case Stage::clip:
-      if (c.foreign) changed = cut_at_sides(mine);
+      if (c.foreign) changed = cut_at_sides(c.scene, mine, factor_of(stage));
       return add(compare_polygon_positions(c.foreign ? changed : mine, theirs.records, factor_of(stage)));
     case Stage::window:
       return add(

@@ -247,24 +247,38 @@ using Polygon = std::vector<ClipVertex<double>>;
 
 constexpr std::size_t kSides = 4;  // the first of distances()
 
-bool reaches_beyond(const Polygon& polygon, std::size_t side) {
-  double scale = 0;
-  for (const ClipVertex<double>& v : polygon) {
-    for (int c = 0; c < 4; ++c) scale = std::max(scale, std::abs(v.p_clip[c]));
+double largest(double so_far, const Vec4<double>& p) {
+  for (int c = 0; c < 4; ++c) so_far = std::max(so_far, std::abs(p[c]));
+  return so_far;
+}
+
+// Largest coordinate of the primitive's corners; of the polygon alone, where the records lack them.
+double scale_of(const DrawIndex& draws, std::uint32_t primitive, const Records<double>& r, const Polygon& polygon) {
+  double out = 0;
+  if (primitive >= draws.primitives() || r.vertices.size() != draws.vertices()) {
+    for (const ClipVertex<double>& v : polygon) out = largest(out, v.p_clip);
+    return out;
   }
-  return std::ranges::any_of(polygon, [&](const auto& v) { return distances(v.p_clip)[side] < -0x1p-16 * scale; });
+  const glm::uvec3 corners = draws.corners(primitive);
+  for (int i = 0; i < 3; ++i) out = largest(out, r.vertices[corners[i]].p_clip);
+  return out;
 }
 
 }  // namespace
 
-Records<double> cut_at_sides(Records<double> records) {
+Records<double> cut_at_sides(const Scene& scene, Records<double> records, double factor) {
+  const DrawIndex draws(scene);
   ClipPolygons<double> out;
   for (const ClipPolygon& of : records.polygons.polygons) {
     const auto first = records.polygons.vertices.begin() + static_cast<std::ptrdiff_t>(of.first);
     Polygon polygon(first, first + static_cast<std::ptrdiff_t>(of.count));
     const bool is_ahead = std::ranges::all_of(polygon, [](const auto& v) { return v.p_clip.w > 0; });
+    const double unit = u * scale_of(draws, of.primitive, records, polygon);
     for (std::size_t side = 0; side < kSides && of.count > 2 && is_ahead; ++side) {
-      if (reaches_beyond(polygon, side)) polygon = cut_by(polygon, side, 0);
+      const auto is_beyond = [&](const ClipVertex<double>& v) {
+        return distances(v.p_clip)[side] < -(kCopiedVertices + (v.cut ? factor : 0)) * unit;
+      };
+      if (std::ranges::any_of(polygon, is_beyond)) polygon = cut_by(polygon, side, 0);
     }
     if (polygon.empty()) continue;
     out.polygons.push_back(

@@ -24,11 +24,16 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
 Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
                                       double factor);
 
-/// Records with their polygons cut at the sides of the view volume, in double. A polygon is cut at a side if one of its
-/// vertices is beyond that side by more than rounding, 2^-16 of its largest coordinate: a renderer may cut at the side,
-/// farther out (guard band), or not at all, since no pixel of the frame lies beyond. Polygons wholly beyond a side are
-/// left out; lines, points, and polygons with a vertex of w <= 0, which no rasterizer can place, stay unchanged.
-/// Varyings are not cut: their columns no longer fit the vertices.
-Records<double> cut_at_sides(Records<double> records);
+/// Roundings of a stranger's clip positions that no plane cuts [u of the triangle's largest coordinate]: of a view
+/// volume [0,w] in z, z' = (z + w) / 2 is rounded, which 2 z' - w doubles, and that difference is rounded again
+/// (largest seen: 1.2 u).
+inline constexpr double kCopiedVertices = 4;
+
+/// Records with their polygons cut at the sides of the view volume, in double: a renderer may cut at a side, farther
+/// out (guard band), or not at all, since no pixel of the frame lies beyond. A polygon is cut at a side if one of its
+/// vertices is beyond it by more than rounding: kCopiedVertices of a vertex of the mesh, `factor` u more of a cut one.
+/// Polygons wholly beyond a side are left out; lines, points, and polygons with a vertex of w <= 0, which no rasterizer
+/// can place, stay unchanged. Varyings are not cut: their columns no longer fit the vertices.
+Records<double> cut_at_sides(const Scene& scene, Records<double> records, double factor);
 
 }  // namespace plumbline::check

@@ -46,7 +46,7 @@ struct OutlineScene {
   Records<double> front() const { return as(true, PolygonMode::line); }
   Records<double> back() const { return as(false, PolygonMode::point); }
   Measurement compare(const Records<double>& a, const Records<double>& b) const {
-    return compare_window(scene, a, b, 4);
+    return compare_window(scene, a, b, {4});
   }
   std::vector<std::uint32_t> turned(const Records<double>& a, const Records<double>& b) const {
     return turned_outlines(scene, a, b);
@@ -91,7 +91,7 @@ TEST_F(Outline, IsHeldToOneOfItsFaces) {
 // Facing of a stranger, who may decide before snapping: a quarter of a step above the base is a front face.
 TEST_F(Outline, OfAStrangerIsFacedByEitherArea) {
   const auto by_either = [](const OutlineScene& o, const Records<double>& a, const Records<double>& b) {
-    return passes(compare_window(o.scene, a, b, 4, {}, 0, FacingArea::either));
+    return passes(compare_window(o.scene, a, b, {4, {}, 0, FacingArea::either}));
   };
   const OutlineScene low(0.25), high(1);
   EXPECT_TRUE(by_either(low, low.front(), low.back()));
@@ -124,7 +124,7 @@ TEST_F(Outline, CornersAtOnePlaceAreToldApartByTheirW) {
     Records<double> drawn = records;
     drawn.triangles.push_back(t);
     drawn.triangles[0].v[1].inv_w *= factor;
-    return passes(compare_window(scene, drawn, records, 4, in_float, 0, FacingArea::either));
+    return passes(compare_window(scene, drawn, records, {4, in_float, 0, FacingArea::either}));
   };
   EXPECT_TRUE(passes_with(1));
   EXPECT_FALSE(passes_with(1 + 8 * kU));
@@ -136,7 +136,7 @@ TEST_F(Outline, OfAStrangerIsFacedByTheEquationInFloat) {
   in_float.subpixel_bits = Conventions::kFloat;
   const auto may_be_back = [&](double twice_the_area, FacingArea area) {
     const OutlineScene o(twice_the_area / 20 * 256);
-    return passes(compare_window(o.scene, o.back(), o.front(), 4, in_float, 0, area));
+    return passes(compare_window(o.scene, o.back(), o.front(), {4, in_float, 0, area}));
   };
   EXPECT_TRUE(may_be_back(0.002, FacingArea::either));
   EXPECT_FALSE(may_be_back(0.006, FacingArea::either));
@@ -167,7 +167,7 @@ TEST_F(Outline, OfAStrangerIsFacedTriangleByTriangleOrAsAPolygon) {
     return out;
   };
   const auto by = [&](FacingArea area, bool first, bool second) {
-    return passes(compare_window(dented.scene, drawn(first, second), drawn(true, false), 4, {}, 0, area));
+    return passes(compare_window(dented.scene, drawn(first, second), drawn(true, false), {4, {}, 0, area}));
   };
   EXPECT_TRUE(by(FacingArea::either, true, false));
   EXPECT_TRUE(by(FacingArea::either, true, true));

@@ -35,7 +35,7 @@ TEST(CompareTexels, ALevelMayBeClampedToTheTexturesLevels) {
   scene.draws[0].texture = DrawTexture{};
   const double last = static_cast<double>(scene.textures[0].levels.size()) - 1;
   const Vec4<double> texel(0.5, 0.25, 1, 1);
-  const auto differing = [&](double exact, double handed, double red = 0.5) {
+  const auto differing_by = [&](double exact, double handed, double red, double of_legal) {
     Records<double> mine, theirs;
     mine.triangles.resize(1);
     mine.covered = {{0, 1, 2}};
@@ -43,14 +43,19 @@ TEST(CompareTexels, ALevelMayBeClampedToTheTexturesLevels) {
     theirs.texels = {{texel, exact}};
     std::vector<TexelRange> legal(1);
     legal[0].lo = legal[0].hi = texel;
-    legal[0].lambda_lo = legal[0].lambda_hi = exact;
+    legal[0].lambda_lo = legal[0].lambda_hi = of_legal;
     return compare_texels(scene, mine, theirs, 3, &legal).differing;
+  };
+  const auto differing = [&](double exact, double handed, double red = 0.5) {
+    return differing_by(exact, handed, red, exact);
   };
   EXPECT_EQ(differing(-2.6, 0), 0u);
   EXPECT_EQ(differing(last + 2, last), 0u);
   EXPECT_EQ(differing(-2.6, 0, 0.6), 1u) << "its texel is the legal level's";
   EXPECT_EQ(differing(-2.6, last), 1u);
   EXPECT_EQ(differing(0.25, 0), 1u);
+  EXPECT_EQ(differing_by(-2.6, 0, 0.5, 0), 0u) << "no filter depends on the level: no legal one is known";
+  EXPECT_EQ(differing_by(0.25, 0, 0.5, 0), 1u);
   scene.textures[0].sampler.base_level = 1, scene.textures[0].sampler.max_level = 3;  // q = 2
   EXPECT_EQ(differing(last + 2, 2), 0u);
   EXPECT_EQ(differing(last + 2, last), 1u) << "a level that the sampler does not reach";

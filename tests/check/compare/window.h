@@ -52,7 +52,7 @@ struct Window : testing::Test {
     Records<double> a = records, b = records;
     candidate(a);
     reference(b);
-    return compare_window(scene, a, b, kFactor);
+    return compare_window(scene, a, b, {kFactor});
   }
   Measurement equal(const Change& candidate, const Change& reference = kUnchanged) const {
     Records<double> a = records, b = records;

@@ -31,11 +31,11 @@ TEST_F(Window, TrianglesHaveAnAreaOnTheDeclaredGrid) {
       auto mine = on_grid(records, grid, is_there);
       const auto exact = on_grid(records, grid, has_area);
       if (is_there && !has_area) mine.triangles.back().v[0].color.r = 0.125f;  // of nothing that is drawn
-      EXPECT_EQ(passes(compare_window(scene, mine, exact, kFactor, grid)), is_there || !has_area) << bits << " bits";
+      EXPECT_EQ(passes(compare_window(scene, mine, exact, {kFactor, grid})), is_there || !has_area) << bits << " bits";
     }
     // A reference on the grid of 1/256 pixel has none.
     const bool passes_beside_256 =
-        passes(compare_window(scene, on_grid(records, grid, true), on_grid(records, grid, false), kFactor, grid));
+        passes(compare_window(scene, on_grid(records, grid, true), on_grid(records, grid, false), {kFactor, grid}));
     EXPECT_EQ(passes_beside_256, bits == Conventions::kFloat || !has_area) << bits << " bits";
   }
 }
@@ -57,7 +57,7 @@ TEST_F(Window, AStrangersTriangleMayHaveAnAreaByRoundingTwice) {
     Records<double> mine = on_grid(records, grid, true);
     for (WindowVertex<double>& v : mine.triangles.back().v) v.snapped.y += v.p_win.y == high && may_have_area ? 16 : 0;
     const auto passes_now = [&] {
-      return passes(compare_window(scene, mine, exact, kFactor, grid, 0, FacingArea::either));
+      return passes(compare_window(scene, mine, exact, {kFactor, grid, 0, FacingArea::either}));
     };
     EXPECT_TRUE(passes_now()) << steps;
     mine.triangles.back().v[0].color.r += 0.125;
@@ -79,7 +79,7 @@ TEST_F(Window, AStrangersTriangleThatMayHaveNoAreaFacesEitherWay) {
   Records<double> mine = on_grid(records, grid, true);
   for (const bool front : {false, true}) {
     mine.triangles.back().front = front;
-    const auto m = compare_window(scene, mine, on_grid(records, grid, false), kFactor, grid, 0, FacingArea::either);
+    const auto m = compare_window(scene, mine, on_grid(records, grid, false), {kFactor, grid, 0, FacingArea::either});
     EXPECT_TRUE(passes(m)) << front;
   }
 }
@@ -90,8 +90,8 @@ TEST_F(Window, ATriangleThatMayHaveNoAreaMayBeThereOrNot) {
   for (const int bits : {4, 8, 12}) {
     grid.subpixel_bits = bits;
     const auto with = on_grid(records, grid, true), without = on_grid(records, grid, false);
-    EXPECT_TRUE(passes(compare_window(scene, with, without, kFactor, grid))) << bits << " bits";
-    EXPECT_TRUE(passes(compare_window(scene, without, with, kFactor, grid))) << bits << " bits";
+    EXPECT_TRUE(passes(compare_window(scene, with, without, {kFactor, grid}))) << bits << " bits";
+    EXPECT_TRUE(passes(compare_window(scene, without, with, {kFactor, grid}))) << bits << " bits";
   }
 }
 
@@ -119,7 +119,7 @@ TEST_F(Window, AStrangersSecondNearestPlaceIsOnItsGrid) {
     Records<double> a = on_grid(records, grid, true);
     a.triangles[0].v[0].p_win.x = 10.5 + place / 256;
     a.triangles[0].v[0].snapped.x = 10 * 256 + snapped;
-    return passes(compare_window(scene, a, a, kFactor, grid, 0, FacingArea::either));
+    return passes(compare_window(scene, a, a, {kFactor, grid, 0, FacingArea::either}));
   };
   EXPECT_TRUE(passes_at(3, 0));
   EXPECT_FALSE(passes_at(3, 6)) << "as near, and off the grid";
@@ -137,7 +137,7 @@ TEST_F(Window, AStrangersPlaceMayBeRoundedOnTheWayToItsGrid) {
     Records<double> a = on_grid(records, grid, true);
     a.triangles[0].v[0].p_win.x = 10.5 + place / 256;
     a.triangles[0].v[0].snapped.x = 10 * 256 + snapped;
-    return passes(compare_window(scene, a, a, kFactor, grid, 0, area));
+    return passes(compare_window(scene, a, a, {kFactor, grid, 0, area}));
   };
   grid.subpixel_rounding = Conventions::Rounding::down;
   EXPECT_TRUE(passes_at(15.95, 0));
@@ -168,10 +168,10 @@ TEST_F(Window, ATriangleOfNoAreaMayBeginAtAnyCorner) {
   Conventions none;
   none.subpixel_bits = Conventions::kFloat;
   for (int turn = 0; turn < 3; ++turn) {
-    EXPECT_TRUE(passes(compare_window(scene, records, reference, kFactor, none))) << turn;
+    EXPECT_TRUE(passes(compare_window(scene, records, reference, {kFactor, none}))) << turn;
     Records<double> wrong = records;
     wrong.triangles.back().v[0].color.b = 0.5;
-    EXPECT_EQ(passes(compare_window(scene, wrong, reference, kFactor, none)), false) << turn;
+    EXPECT_EQ(passes(compare_window(scene, wrong, reference, {kFactor, none})), false) << turn;
     std::rotate(t.v.begin(), t.v.begin() + 1, t.v.end());
   }
 }

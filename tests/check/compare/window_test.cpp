@@ -88,7 +88,7 @@ TEST_F(Window, SnappedPositionsAreRoundedBeforeTheyMoveToTheSample) {
     }
     a.triangles[0].v[0].p_win.x = 10 + (steps + 51.2) / 256;
     a.triangles[0].v[0].snapped.x = (10 * 256 - 128) + snapped + 51;
-    return passes(compare_window(scene, a, a, kFactor, off_grid, 0, FacingArea::either));
+    return passes(compare_window(scene, a, a, {kFactor, off_grid, 0, FacingArea::either}));
   };
   for (const int by : {-1, 0, 1}) {
     EXPECT_EQ(passes_at(0.4, by), by == 0) << by;
@@ -103,7 +103,7 @@ TEST_F(Window, AStrangerMaySnapHalfAStepEitherWay) {
     Records<double> a = records;
     a.triangles[0].v[0].p_win.x = 10 + steps / 256;
     a.triangles[0].v[0].snapped.x = (10 * 256 - 128) + snapped;
-    return passes(compare_window(scene, a, a, kFactor, {}, 0, FacingArea::either));
+    return passes(compare_window(scene, a, a, {kFactor, {}, 0, FacingArea::either}));
   };
   EXPECT_TRUE(passes_at(0.5, 0));
   EXPECT_TRUE(passes_at(0.5, 1));

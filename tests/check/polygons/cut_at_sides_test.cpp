@@ -10,7 +10,7 @@ struct CutAtSides : Polygons {
   // A renderer's polygons, as they are and cut at the sides.
   Measurement as_it_is(const Records<double>& a) const { return compare_polygons(scene, a, records, kFactor); }
   Measurement cut(const Records<double>& a) const {
-    return compare_polygons(scene, cut_at_sides(a), records, kFactor, FlatColors::provoking, 4);
+    return compare_polygons(scene, cut_at_sides(scene, a, kFactor), records, kFactor, FlatColors::provoking, 4);
   }
   // The records with the primitive's polygon replaced by its corners, after `change`.
   Records<double> uncut(
@@ -27,7 +27,7 @@ struct CutAtSides : Polygons {
 };
 
 TEST_F(CutAtSides, IsNothingForPolygonsThatAreCut) {
-  const Records<double> same = cut_at_sides(records);
+  const Records<double> same = cut_at_sides(scene, records, kFactor);
   EXPECT_TRUE(passes(compare_polygons(scene, same, records, kFactor)));
   EXPECT_EQ(same.polygons.vertices.size(), records.polygons.vertices.size());
 }
@@ -63,11 +63,27 @@ TEST_F(CutAtSides, ACornerBeyondThatIsMovedOrColouredOtherwiseFails) {
 // A rasterizer divides by w, so a polygon that reaches behind the eye cannot be left to it.
 TEST_F(CutAtSides, APolygonThatReachesBehindTheEyeStaysAsItIs) {
   const auto corners_left = [&](double w) {
-    return cut_at_sides(uncut(2, [&](auto& v) { v.p_clip.w = w; })).polygons.polygons[2].count;
+    return cut_at_sides(scene, uncut(2, [&](auto& v) { v.p_clip.w = w; }), kFactor).polygons.polygons[2].count;
   };
   EXPECT_EQ(corners_left(0x1p-4), 4u);
   EXPECT_EQ(corners_left(0), 3u);
   EXPECT_EQ(corners_left(-1), 3u);
+}
+
+// In u of the triangle's largest coordinate, however small the polygon: 4 of a corner, kFactor more of a cut.
+TEST_F(CutAtSides, AVertexIsBeyondASideByMoreThanRounding) {
+  double scale = 0;
+  for (std::size_t i = 6; i < 9; ++i) {
+    for (int c = 0; c < 4; ++c) scale = std::max(scale, std::abs(records.vertices[i].p_clip[c]));
+  }
+  const auto corners_left = [&](double beyond, bool is_cut) {
+    const auto moved = uncut(2, [&](auto& v) { v.p_clip.x = v.p_clip.w + beyond * kU * scale, v.cut = is_cut; });
+    return cut_at_sides(scene, moved, kFactor).polygons.polygons[2].count;
+  };
+  EXPECT_EQ(corners_left(3, false), 3u);
+  EXPECT_EQ(corners_left(5, false), 4u);
+  EXPECT_EQ(corners_left(3 + kFactor, true), 3u);
+  EXPECT_EQ(corners_left(5 + kFactor, true), 4u);
 }
 
 TEST_F(CutAtSides, TheNearPlaneCutsAllTheSame) { EXPECT_TRUE(fails(cut(uncut(1)))); }
@@ -76,7 +92,7 @@ TEST_F(CutAtSides, WhatLiesBeyondASideIsNotThere) {
   Records<double> extra = records;
   ClipPolygon& first = extra.polygons.polygons[0];
   for (std::uint32_t i = 0; i < first.count; ++i) extra.polygons.vertices[first.first + i].p_clip.x += 8;
-  EXPECT_EQ(cut_at_sides(extra).polygons.polygons.size(), records.polygons.polygons.size() - 1);
+  EXPECT_EQ(cut_at_sides(scene, extra, kFactor).polygons.polygons.size(), records.polygons.polygons.size() - 1);
   EXPECT_TRUE(fails(cut(extra))) << "a primitive within the view is lacking";
 }
 
