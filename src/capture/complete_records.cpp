@@ -44,12 +44,31 @@ void reorder(std::vector<T>& column, const Order& order) {
 
 // ---- columns
 
+constexpr double kFarthestPlace = 0x1p30;  // [1/256 pixel]
+glm::dvec2 place_of(const Vec3<double>& p_win) { return (glm::dvec2(p_win) - 0.5) * double{kSubpixel}; }
+
+// Clears the records of stage window and later.
+struct ClearFromWindow {
+  void group(Handed group, const auto&, auto& records) const {
+    if (group.stage >= Stage::window) records.clear();
+  }
+  void plane(Handed, auto&) const {}
+};
+
+// Whether a window position has no place on a grid of 1/256 pixel in 32 bits, as of a renderer that cuts at no side.
+bool reaches_beyond_grid(const Records<double>& r) {
+  const auto is_beyond = [](const WindowVertex<double>& v) {
+    const glm::dvec2 at = glm::abs(place_of(v.p_win));
+    return std::isfinite(at.x) && std::isfinite(at.y) && std::max(at.x, at.y) >= kFarthestPlace;
+  };
+  return std::ranges::any_of(r.triangles, [&](const auto& t) { return std::ranges::any_of(t.v, is_beyond); });
+}
+
 glm::ivec2 snapped_place(const Vec3<double>& p_win, std::size_t record, const Conventions& conventions) {
-  const glm::dvec2 steps = (glm::dvec2(p_win) - 0.5) * double{kSubpixel};
-  if (!(std::abs(steps.x) < 0x1p30 && std::abs(steps.y) < 0x1p30)) {
+  const glm::dvec2 steps = place_of(p_win);
+  if (!(std::abs(steps.x) < kFarthestPlace && std::abs(steps.y) < kFarthestPlace)) {
     throw std::invalid_argument(fmt::format(
-        "window.snapped: left out, and the p_win of record {} is ({} {}): expected a place within 2^22 pixels", record,
-        p_win.x, p_win.y));
+        "window.snapped: left out, and the p_win of record {} is ({} {}): expected numbers", record, p_win.x, p_win.y));
   }
   return {snapped(conventions, 0, steps.x), snapped(conventions, 1, steps.y)};
 }
@@ -336,6 +355,7 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   if (capture.derived.contains("texture.lod")) {
     for (Texel<double>& texel : r.texels) texel.lod = std::numeric_limits<double>::quiet_NaN();
   }
+  if (capture.derived.contains("window.snapped") && reaches_beyond_grid(r)) visit_capture(ClearFromWindow{}, capture);
   derive_window(draws, conventions, capture);
   sort_triangles(capture);
   sort_fragments(capture);
