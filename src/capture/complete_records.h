@@ -17,9 +17,9 @@ enum class Depths { of_codes, raw };
 /// and the mesh, NaN without matrices; where they are shown, the position varying of vertices (if 8 u of the terms tell
 /// it from the matrices'), and of draws lit per fragment the normal varying. clip.cut: false where p_clip is that of a
 /// vertex of the primitive, within 2^-22 of its largest coordinate (true where there are no vertices, and clip is not
-/// judged). window.snapped: from p_win and the conventions; where a p_win lies beyond 2^22 pixels, records from window on
-/// are cleared. window.front: by the sign of the area on the conventions' grid. Where the draw culls that face, and the
-/// area is 0 on the grid or may have the other sign without snapping, it is the other face. window.corners,
+/// judged). window.snapped: from p_win and the conventions; where a p_win lies beyond 2^22 pixels, records from window
+/// on are cleared. window.front: by the sign of the area on the conventions' grid. Where the draw culls that face, and
+/// the area is 0 on the grid or may have the other sign without snapping, it is the other face. window.corners,
 /// window.width: from the mesh and the draw. texture.lod: NaN, as no recorded column determines it.
 ///
 /// Rounds planes.depth to the nearest codes where it was read from f32, or is double's roundings (2^-50; of z8 and z16

@@ -139,7 +139,10 @@ std::string known_faults(const Scene& scene, const Capture& left, const Renderer
   if (likely.empty() || (holds(diagnosis) && (!found.whole || found.together))) return "";
   const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
   return fmt::format("\npixels unlike plumbline's in colour{}: {}; known faults that draw such a frame:\n{}{}",
-                     found.by_color ? " (depths are like no fault's)" : " or depth", found.apart, found.text,
+                     left.planes.depth.empty() ? ""
+                     : found.by_color          ? " (depths are like no fault's)"
+                                               : " or depth",
+                     found.apart, found.text,
                      is_open            ? likely_line(found)
                      : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", fmt::join(likely, " or "))
                                         : "");

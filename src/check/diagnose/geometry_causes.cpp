@@ -137,11 +137,13 @@ bool one_vertex_lost(const Evidence& e) {
     if (theirs == nullptr || mine == nullptr) return theirs != nullptr && theirs->count == 3;
     any = any || mine->count + 1 == theirs->count;
     if (mine->count != theirs->count && mine->count + 1 != theirs->count) return false;
-    for (std::uint32_t i = 0; i < mine->count; ++i) {  // what is left stands where it should
-      const Vec4<double>& p = mine_of[mine->first + i].p_clip;
+    for (std::uint32_t i = 0; i < mine->count; ++i) {  // what is left stands where it should, and has its colour
+      const Vec4<double>&p = mine_of[mine->first + i].p_clip, &color = mine_of[mine->first + i].color;
       const double near = 1e-5 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + std::abs(p.w));
       if (std::none_of(theirs_of.begin() + theirs->first, theirs_of.begin() + theirs->first + theirs->count,
-                       [&](const ClipVertex<double>& v) { return glm::distance(v.p_clip, p) <= near; }))
+                       [&](const ClipVertex<double>& v) {
+                         return glm::distance(v.p_clip, p) <= near && glm::distance(v.color, color) <= 1e-3;
+                       }))
         return false;
     }
     return true;

@@ -1,4 +1,8 @@
-// The comparator of polygon positions that a reference rebuilt from the window.
+// The comparator of polygon positions that a reference rebuilt from the window; the vertex taken for the first.
+#include <set>
+#include <string_view>
+#include <utility>
+
 #include "tests/check/polygons/polygons.h"
 
 namespace plumbline::check {
@@ -69,6 +73,18 @@ TEST_F(PolygonPositions, WhatIsNoNumberFailsOnEitherSide) {
       EXPECT_TRUE(fails(positions(kUnchanged, change))) << "the reference: " << bad << " " << c;
     }
   }
+}
+
+// Colours of a small cut triangle, each the next vertex': the colour is named, and no vertex of another place.
+TEST_F(Polygons, WrongColoursAreNotTakenForAnotherFirstVertex) {
+  set({{{0, 0, -0.99, 1}, {0.01, 0, -0.99, 1}, {0, 0.01, -1.01, 1}}});
+  const Measurement m = compare([](Records<double>& r) {
+    auto& vertices = r.polygons.vertices;
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) std::swap(vertices[i].color, vertices[i + 1].color);
+  });
+  EXPECT_TRUE(fails(m));
+  const std::set<std::string_view> of_colors = {"color", "off its triangle", "off its edge"};
+  EXPECT_TRUE(of_colors.contains(m.worst.place.field)) << m.worst.place.field;
 }
 
 }  // namespace
