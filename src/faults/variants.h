@@ -1,6 +1,7 @@
 // Building blocks of faults, and bugs that several lists name.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <string_view>
@@ -68,10 +69,10 @@ inline double z_of_sample(const Setup& s) {
   const double there = pipeline::depth_plane(s.depth, s.planes).code.at_0;
   return (s.depth_plane.code.at_0 - there) / (s.depth.scale == 0 ? 1 : s.depth.scale);
 }
-/// Window z at a pass' sample, clamped to [0, 1].
+/// Window z at a pass' sample, clamped as stage 6 does (DepthState).
 inline double window_z(const Setup& s, const Pixels<float>& p) {
   const Barycentric b = pipeline::barycentric(s.planes, p);
-  return pipeline::clamp01(s.depth.z0 + b.l1 * s.depth.dz1 + b.l2 * s.depth.dz2 + z_of_sample(s));
+  return std::clamp(s.depth.z0 + b.l1 * s.depth.dz1 + b.l2 * s.depth.dz2 + z_of_sample(s), s.depth.low, s.depth.high);
 }
 /// The pipeline's own depth, in the depth format.
 inline float right_depth(const Setup& s, const Pixels<float>& p) {
