@@ -6,8 +6,8 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// Writes one part of a lit draw's colours into attribute number `attribute` (0: the colour, 1 + v: Varying v) of each of
-// `out`, which has one entry per vertex. Alpha of a secondary part is 0.
+// Writes one part of a lit draw's colours into attribute number `attribute` (0: the colour, 1 + v: Varying v) of each
+// of `out`, which has one entry per vertex. Alpha of a secondary part is 0.
 void light_part(const LightInput& in, LitPart part, std::size_t attribute, std::span<Attributes> out) {
   const bool by_color = in.draw.color_material != ColorMaterial::none && !in.mesh.colors.empty();
   const Illumination in_eye_space = illumination(in.scene, in.lights);
