@@ -1,6 +1,10 @@
 // A scene's corners in double, and on the declared grid (settles_grid()).
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -51,6 +55,49 @@ std::vector<std::uint32_t> weld(const Mesh& mesh) {
   return point;
 }
 
+// Exponent of a number's lowest bit that is 1; of 0: of no bit.
+int lowest_bit(double number) {
+  if (number == 0) return std::numeric_limits<int>::max();
+  int exponent = 0;
+  const double significand = std::frexp(std::abs(number), &exponent);
+  constexpr int kBits = std::numeric_limits<double>::digits;
+  return exponent - kBits + std::countr_zero(static_cast<std::uint64_t>(std::ldexp(significand, kBits)));
+}
+
+// Terms of a sum. Their products and partial sums, in any order, are multiples of 2^lowest of at most `size`: floats
+// hold them all if that is at most 2^24 multiples.
+struct Terms {
+  int lowest = std::numeric_limits<int>::max();
+  double size = 0;
+  void add(double a, double b, double c) {
+    if (a == 0 || b == 0 || c == 0) return;
+    lowest = std::min(lowest, lowest_bit(a) + lowest_bit(b) + lowest_bit(c));
+    size += std::abs(a * b * c);
+  }
+  bool are_floats() const { return size == 0 || size <= std::ldexp(1.0, std::numeric_limits<float>::digits + lowest); }
+};
+
+Terms terms_of(const Matrices<double>& m, const glm::dvec4& p, int row) {
+  Terms out;
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 4; ++k) out.add(m.projection[i][row], m.model_view[k][i], p[k]);
+  }
+  return out;
+}
+
+// Corner::is_exact: w is a power of 2, so that 1 / w is, too; x_win = (x / w + 1) width / 2, or the sum of these terms.
+bool is_exact(const Matrices<double>& m, const glm::dvec4& p, const glm::dvec4& p_clip, glm::ivec2 frame) {
+  const int of_w = lowest_bit(p_clip.w);
+  if (!(p_clip.w > 0) || std::ldexp(1.0, of_w) != p_clip.w || !terms_of(m, p, 3).are_floats()) return false;
+  for (int i = 0; i < 2; ++i) {
+    const Terms clip = terms_of(m, p, i);
+    const double half = 0.5 * frame[i], x = std::abs(p_clip[i] / p_clip.w);
+    const int lowest = std::min(clip.size == 0 ? 0 : clip.lowest - of_w, 0);
+    if (!clip.are_floats() || !Terms{lowest + lowest_bit(half), (x + 1) * half}.are_floats()) return false;
+  }
+  return true;
+}
+
 double steps_of(const Projected& scene) { return std::ldexp(1.0, scene.conventions.subpixel_bits); }
 
 }  // namespace
@@ -99,6 +146,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.n_eye = normal.v;
     corner.n_eye_error = normal.error;
     corner.point = first + point[i];
+    corner.is_exact = is_exact(m, p, c, {scene.frame.width, scene.frame.height});
     out.corners.push_back(corner);
   }
 }

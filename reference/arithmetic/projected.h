@@ -37,7 +37,8 @@ struct Corner {
   double z_eye_error;       ///< bound on the error of z_eye in float
   glm::dvec3 p_eye, n_eye;  ///< position and normal in eye space, for light per fragment
   double p_eye_error, n_eye_error;
-  std::uint32_t point;  ///< equal for vertices of one draw whose positions are bit-equal
+  std::uint32_t point;    ///< equal for vertices of one draw whose positions are bit-equal
+  bool is_exact = false;  ///< floats hold its window position and all that the position is computed from
 };
 
 /// Interval of a polygon offset: [middle - half, middle + half] [window z].

@@ -6,6 +6,9 @@
 // where all combinations of the corners' grid points agree; the tie rule settles edge functions that are 0. Rules
 // inclusive and exclusive are signs of e. Where float computes e, a sample on an edge is open: e may be rounded to
 // either side of 0. Differences of coordinates are exact in float on level and on upright edges, whose products are 0.
+//
+// Positions that are floats (settles_ties_of_floats()): coverage is known between corners that no arithmetic rounds.
+// Any rule goes by the sign of e there.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +27,8 @@ using C = Conventions;
 // Whether float decides who owns a sample on an edge of this direction.
 bool rounds_ties(const C& c, glm::dvec2 along) {
   using enum C::DepthArithmetic;
-  const bool is_by_sign = c.tie_rule == C::TieRule::inclusive || c.tie_rule == C::TieRule::exclusive;
+  const bool is_by_sign =
+      c.tie_rule == C::TieRule::inclusive || c.tie_rule == C::TieRule::exclusive || c.subpixel_bits == C::kFloat;
   if (!is_by_sign || c.depth_arithmetic == in_double) return false;
   const bool by_differences = c.depth_arithmetic == in_float || c.depth_arithmetic == in_float_stepped;
   return !by_differences || (along.x != 0 && along.y != 0);
@@ -44,23 +48,30 @@ std::optional<bool> covers(const std::array<glm::dvec2, 3>& corners, double sign
   return out;
 }
 
-// Grid points of a triangle's corner. Those of a copy on the grid are not snapped again: down or up, the rounding of
-// v / w would move them by a step.
+double steps_of(const C& c) { return c.subpixel_bits == C::kFloat ? 1 : std::ldexp(1.0, c.subpixel_bits); }
+
+// Places of a triangle's corner [steps of the grid, or pixels]; none: unknown. Those of a copy on the grid are not
+// snapped again: down or up, the rounding of v / w would move them by a step.
 GridPoints points_of(const Projected& scene, const Triangle& t, std::size_t i) {
-  if (!t.on_grid) return grid_points(scene, scene.corners[t.corner[i]]);
+  const auto place_of = [&](const Corner& c) { return glm::dvec2(c.v) / c.v.z + scene.middle(); };
+  const Corner& corner = scene.corners[t.corner[i]];
+  if (scene.conventions.subpixel_bits == C::kFloat)
+    return corner.is_exact ? GridPoints{{place_of(corner)}, 1} : GridPoints{};
+  if (!t.on_grid) return grid_points(scene, corner);
   const Corner& copy = scene.corners[scene.on_grid[*t.on_grid].corner[i]];
-  const glm::dvec2 at = glm::dvec2(copy.v) / copy.v.z + scene.middle();
-  return {{glm::round(std::ldexp(1.0, scene.conventions.subpixel_bits) * at)}, 1};
+  return {{glm::round(steps_of(scene.conventions) * place_of(copy))}, 1};
 }
 
 }  // namespace
 
-// Edge functions are exact in double: products of grid coordinates of 1/1024 pixel or coarser (settles_ties()).
+// Edge functions are exact in double: products of grid coordinates of 1/1024 pixel or coarser (settles_ties()), or of
+// differences of floats of one exponent range (Corner::is_exact).
 std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, int px, int py) {
   const C& c = scene.conventions;
   const bool is_thin = t.thin && !t.on_grid;
-  if (t.flat || t.cut || is_thin || !t.facing_kept || !settles_ties(c)) return std::nullopt;
-  const double steps = std::ldexp(1.0, c.subpixel_bits);
+  if (t.flat || t.cut || is_thin || !t.facing_kept || !(settles_ties(c) || settles_ties_of_floats(c)))
+    return std::nullopt;
+  const double steps = steps_of(c);
   const glm::dvec2 sample = steps * (glm::dvec2(scene.ray(px, py)) + scene.middle());
   std::array<GridPoints, 3> points;
   for (std::size_t i = 0; i < 3; ++i) {

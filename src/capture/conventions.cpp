@@ -76,6 +76,13 @@ bool settles_grid(const Conventions& c) {
 
 bool settles_ties(const Conventions& c) { return c.tie_rule != Conventions::TieRule::any && settles_grid(c); }
 
+bool settles_ties_of_floats(const Conventions& c) {
+  const bool is_rule = c.tie_rule != Conventions::TieRule::any && !leaves_open(c, "tie_rule");
+  const bool are_floats = c.subpixel_bits == Conventions::kFloat && !leaves_open(c, "subpixel_bits");
+  const glm::dvec2 sample = 256.0 * c.sample;
+  return is_rule && are_floats && !leaves_open(c, "sample") && sample == glm::round(sample);
+}
+
 namespace {
 
 // A mistake, and the convention that it is of; empty: of none.

@@ -266,6 +266,9 @@ bool leaves_open(const Conventions& conventions, std::string_view name);
 bool settles_grid(const Conventions& conventions);
 /// Whether, besides, the declared tie rule settles which triangle owns a sample on an edge.
 bool settles_ties(const Conventions& conventions);
+/// Whether it does where positions are floats, between corners that no arithmetic in float rounds: a rule is declared,
+/// and the sample is at a multiple of 1/256 pixel.
+bool settles_ties_of_floats(const Conventions& conventions);
 
 /// Text of a number of bits: "float", or the number.
 std::string bits_text(int bits);

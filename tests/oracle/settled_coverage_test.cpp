@@ -1,6 +1,8 @@
 // Coverage that a renderer's grid, rounding and tie rule settle.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -35,16 +37,19 @@ TEST(SettledCoverage, ADeclaredTieRuleSettlesSamplesOnEdges) {
   for (const Case& c : {Case{left_bottom, 1, 0, 1, 0, 1, 0}, Case{left_top, 1, 0, 0, 1, 1, 0},
                         Case{right_bottom, 0, 1, 1, 0, 1, 1}, Case{right_top, 0, 1, 0, 1, 1, 1},
                         Case{inclusive, 1, 1, 1, 1, 2, 0}, Case{exclusive, 0, 0, 0, 0, 0, kBackground}}) {
-    const Legal by = legal(scene, declared(c.rule));
-    EXPECT_EQ(open_pixels(by), 0u) << name_of(c.rule);
-    EXPECT_EQ(by.certain(4, 16), c.left) << name_of(c.rule);
-    EXPECT_EQ(by.certain(28, 16), c.right) << name_of(c.rule);
-    EXPECT_EQ(by.certain(16, 4), c.bottom) << name_of(c.rule);
-    EXPECT_EQ(by.certain(16, 28), c.top) << name_of(c.rule);
-    EXPECT_EQ(by.certain(16, 16), c.inner) << name_of(c.rule);
-    const std::size_t winners = c.rule == inclusive ? 2 : 1;  // depths of one plane may compare either way
-    ASSERT_EQ(by.at(16, 16).size(), winners) << name_of(c.rule);
-    EXPECT_EQ(by.at(16, 16)[0].primitive, c.owner) << name_of(c.rule);
+    for (const int bits : {8, C::kFloat}) {
+      const std::string name = std::string(name_of(c.rule)) + ", bits " + bits_text(bits);
+      const Legal by = legal(scene, declared(c.rule, bits));
+      EXPECT_EQ(open_pixels(by), 0u) << name;
+      EXPECT_EQ(by.certain(4, 16), c.left) << name;
+      EXPECT_EQ(by.certain(28, 16), c.right) << name;
+      EXPECT_EQ(by.certain(16, 4), c.bottom) << name;
+      EXPECT_EQ(by.certain(16, 28), c.top) << name;
+      EXPECT_EQ(by.certain(16, 16), c.inner) << name;
+      const std::size_t winners = c.rule == inclusive ? 2 : 1;  // depths of one plane may compare either way
+      ASSERT_EQ(by.at(16, 16).size(), winners) << name;
+      EXPECT_EQ(by.at(16, 16)[0].primitive, c.owner) << name;
+    }
   }
 }
 
@@ -70,24 +75,54 @@ TEST(SettledCoverage, FloatDecidesTiesByTheSignOfAnEdgeFunction) {
   }
 }
 
+// Positions that are floats: edge functions are, too, and any rule goes by their signs.
+TEST(SettledCoverage, FloatsSettleTiesBetweenCornersThatNoArithmeticRounds) {
+  const std::vector<std::array<glm::vec3, 3>> triangle = {
+      {glm::vec3(4.5f, 4.5f, 0.5f), {20.5f, 28.5f, 0.5f}, {4.5f, 28.5f, 0.5f}}};
+  using enum C::TieRule;
+  for (const C::TieRule rule : {inclusive, left_bottom, left_top}) {
+    C floats = declared(rule, C::kFloat);
+    EXPECT_EQ(open_pixels(legal(window_scene(triangle), floats)), 0u) << name_of(rule) << ": in double";
+    EXPECT_GT(open_pixels(legal(window_scene(triangle, 33), floats)), 40u) << name_of(rule) << ": 1/33 is no float";
+    floats.depth_arithmetic = C::DepthArithmetic::in_float;
+    const Legal by = legal(window_scene(triangle), floats);
+    EXPECT_EQ(by.certain(4, 16), 1u) << name_of(rule) << ": upright";
+    EXPECT_EQ(by.certain(8, 28), rule == left_bottom ? 0u : 1u) << name_of(rule) << ": level";
+    EXPECT_EQ(by.possible(8, 28), by.certain(8, 28)) << name_of(rule);
+    EXPECT_NE(by.certain(6, 7), by.possible(6, 7)) << name_of(rule) << ": slanted";
+    floats.depth_arithmetic = C::DepthArithmetic::in_float_from_origin;
+    const Legal by_equations = legal(window_scene(triangle), floats);
+    EXPECT_NE(by_equations.certain(4, 16), by_equations.possible(4, 16)) << name_of(rule);
+    EXPECT_EQ(by_equations.certain(8, 20), 1u) << "inside";
+  }
+  // Floats hold all sums that lead to 20.5 + 2^-18 pixels; 1 + 2 / 32 (20.5 + 2^-19) takes 25 bits.
+  for (const auto& [beside, is_known] : {std::pair(0x1p-18f, true), {0x1p-19f, false}}) {
+    std::vector<std::array<glm::vec3, 3>> moved = triangle;
+    moved[0][1].x += beside;
+    const Legal by = legal(window_scene(moved), declared(left_bottom, C::kFloat));
+    EXPECT_EQ(by.certain(8, 28) == by.possible(8, 28), is_known) << beside;
+  }
+}
+
 // Samples on edges stay open where the grid is unknown, or float arithmetic decides to which grid point a corner
 // snaps.
 TEST(SettledCoverage, ATieRuleSettlesNothingWithoutPlaces) {
   const Scene scene = window_scene(kSquare);
   const std::size_t any = open_pixels(legal(scene, {}));
-  C no_grid = declared(C::TieRule::left_bottom, C::kFloat), open_bits = declared(C::TieRule::left_bottom),
-    from_top = open_bits, off_grid = open_bits;
+  C floats = declared(C::TieRule::left_bottom, C::kFloat), open_rule = floats,
+    open_bits = declared(C::TieRule::left_bottom), from_top = open_bits, off_grid = open_bits;
+  floats.sample = {0.501, 0.5}, open_rule.open = {"tie_rule"};
   open_bits.open = {"subpixel_bits"};
   from_top.subpixel_rounding = C::Rounding::down, from_top.rows = C::Rows::from_top;
-  EXPECT_EQ(open_pixels(legal(scene, no_grid)), any);
+  EXPECT_EQ(open_pixels(legal(scene, open_rule)), any);
   EXPECT_EQ(open_pixels(legal(scene, open_bits)), any);
   EXPECT_GE(open_pixels(legal(scene, from_top)), any);
   off_grid.sample = {0.501, 0.5};
-  EXPECT_EQ(open_pixels(legal(scene, off_grid)), open_pixels(legal(scene, [&] {
-              C of_any = off_grid;
-              of_any.tie_rule = C::TieRule::any;
-              return of_any;
-            }())));
+  for (const C& beside : {off_grid, floats}) {
+    C of_any = beside;
+    of_any.tie_rule = C::TieRule::any;
+    EXPECT_EQ(open_pixels(legal(scene, beside)), open_pixels(legal(scene, of_any)));
+  }
   // Corners in the middle between two places of the grid.
   std::vector<std::array<glm::vec3, 3>> between = kSquare;
   for (auto& t : between)

@@ -229,21 +229,25 @@ bool is_opengls(const Conventions& conventions, std::string_view name) {
 std::string convention_notes(const std::string& file) {
   const Conventions conventions = conventions_of(file);
   std::string out;
+  const bool by_floats = settles_ties_of_floats(conventions), settles = by_floats || settles_ties(conventions);
   // A key may have got its value since plumb learn left it open.
   std::vector<std::string> open = conventions.open;
   std::erase_if(open, [&](const std::string& name) {
-    return !is_opengls(conventions, name) || (name == "tie_rule" && !settles_ties(conventions));
+    return !is_opengls(conventions, name) || (name == "tie_rule" && !settles);
   });
   if (!open.empty()) out += fmt::format("open in {}, and judged as OpenGL's: {}\n", file, fmt::join(open, ", "));
   if (!conventions.accepted.empty())
     out += fmt::format("accepted by {}, if mistaken: {}\n", file, fmt::join(conventions.accepted, ", "));
-  if (!settles_ties(conventions))
+  if (by_floats)
+    out += "judged between corners that no arithmetic in float rounds alone: which triangle owns a sample on an edge\n";
+  if (!settles)
     out += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
                        file.empty() ? "no tie rule is declared: plumb learn"
                        : conventions.tie_rule == Conventions::TieRule::any
                            ? fmt::format("{} declares no tie rule", file)
-                           : "a rule is settled by subpixel_bits 0 to 10, the sample at a multiple of 1/256 pixel or "
-                             "on the grid; where rows count from the top, subpixel_rounding nearest or window_y down");
+                           : "a rule is settled by subpixel_bits 0 to 10 or float, the sample at a multiple of 1/256 "
+                             "pixel or on the grid; where rows count from the top, subpixel_rounding nearest or "
+                             "window_y down");
   return out;
 }
 
