@@ -282,10 +282,10 @@ bool is_of(const StageSet& stages, const KnownFault& f) {
 }
 
 bool makes_wrong(const StageSet& stages, const KnownFault& f) {
-  constexpr std::array<std::string_view, 4> kOfAttributes = {"shade.texture_ignored", "shade.texture_stays",
-                                                             "shade.fog_ignored", "shade.fog_stays"};
+  constexpr std::array<std::string_view, 5> kOfLight = {"vertex.not_renormalised", "shade.texture_ignored",
+                                                        "shade.texture_stays", "shade.fog_ignored", "shade.fog_stays"};
   return is_of(stages, f) || (stages.has(Stage::vertex) && f.name == "visibility.draws_reversed") ||
-         (stages.has(Stage::light) && is_among(f.name, kOfAttributes));
+         (stages.has(Stage::light) && is_among(f.name, kOfLight));
 }
 
 std::vector<KnownFault> picture_faults() {

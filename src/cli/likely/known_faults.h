@@ -14,7 +14,8 @@ namespace plumbline::cli {
 /// Whether the fault is of one of these stages: one of the viewport is of `window`, one of a file of `merge`.
 bool is_of(const StageSet& stages, const KnownFault& fault);
 /// Whether the fault makes one of these stages wrong: its own (is_of()); vertex, whose records are numbered by the
-/// order of draws; light, whose records lack the attributes of a texture or a fog that is left out.
+/// order of draws; light, whose records lack the attributes of a texture or a fog that is left out, and whose normals a
+/// stranger may bring to unit length later than at stage vertex.
 bool makes_wrong(const StageSet& stages, const KnownFault& fault);
 
 /// Faults drawn for comparison only, not selectable by --fault; one for each name.

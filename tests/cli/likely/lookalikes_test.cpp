@@ -294,6 +294,17 @@ TEST(Lookalikes, OfAStageThatIsWrongByItselfComeFirst) {
   }
 }
 
+// Of draws with `normalize`, stage vertex judges the direction of a stranger's normals alone: their length is wrong at
+// stage light.
+TEST(Lookalikes, OfNormalsThatAreNotUnitAreNamedWhereLightIsWrong) {
+  const Scene scene = scene_of("light/squeezed.json");
+  GivenFrame given = drawn(scene, "vertex.not_renormalised");
+  given.right = {Stage::vertex};
+  EXPECT_EQ(lookalikes(scene, given).text.find("vertex."), std::string::npos);
+  given.wrong = {Stage::light};
+  EXPECT_EQ(lookalikes(scene, given).likely, "vertex (fault vertex.not_renormalised)");
+}
+
 // Depths of 16 bits, and a colour that differs legally: no fault of the colour explains the depths.
 TEST(Lookalikes, OfLegalColorsExplainNoWrongDepths) {
   const Scene scene = scene_of("coverage/hairlines.json");
