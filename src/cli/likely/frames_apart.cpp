@@ -79,13 +79,16 @@ bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes) { return 
 
 bool is_clear_depth(const FrameFormat& format, double z) { return std::abs(z - format.clear_depth) <= 1.0 / 65535; }
 
-FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours)
-    : format_(format), given_(given), ours_(ours), counted_(given.color.size()) {
+FramesApart::FramesApart(const FrameFormat& format, const GivenFrame& given, const ColorAndDepth& ours)
+    : format_(format.depth), given_(given), ours_(ours), counted_(given.color.size()) {
   const auto holds = [&](const Plane<std::uint8_t>& legal, std::size_t i) {
     return legal.size() == given.color.size() && legal.values()[i] != 0;
   };
+  const auto has_surface = [&](const ColorAndDepth& of, std::size_t i) {
+    return !is_clear_depth(format, of.depth.values()[i]);
+  };
   for (std::size_t i = 0; i < given.color.size(); ++i) {
-    const Distance from_ours = distance(format, given, ours, i);
+    const Distance from_ours = distance(format_, given, ours, i);
     rgb_from_ours_.push_back(from_ours.rgb);
     for (std::size_t look = 0; look < kLooks; ++look) {
       const Eye& eye = kEyes[look];
@@ -95,7 +98,7 @@ FramesApart::FramesApart(DepthFormat format, const GivenFrame& given, const Colo
         counted_[i][look] = left_out;
       } else if (holds(legal, i)) {
         if (is_far || from_ours.is_color_beyond(eye)) counted_[i][look] = passed_over;
-      } else if (is_far && holds(given.is_legal_depth, i)) {
+      } else if (is_far && holds(given.is_legal_depth, i) && has_surface(given, i) && has_surface(ours, i)) {
         counted_[i][look] = by_color;
       }
     }

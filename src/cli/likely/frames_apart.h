@@ -26,7 +26,8 @@ struct GivenFrame : ColorAndDepth {
   Plane<std::uint8_t> is_legal{};
   /// Legality of the colour alone: the depth may be wrong.
   Plane<std::uint8_t> is_legal_color{};
-  /// Legality of the depth alone: where it differs from ours, the pixel counts by its colour.
+  /// Legality of the depth alone: where it differs from ours, the pixel counts by its colour. Clear depths, which
+  /// stage merge judges, are not meant.
   Plane<std::uint8_t> is_legal_depth{};
   /// 1: our frame, drawn without a fault, is wrong by the conventions here: the pixel tells nothing. Empty: none.
   Plane<std::uint8_t> is_wrong_in_ours{};
@@ -58,7 +59,7 @@ bool is_clear_depth(const FrameFormat& format, double z);
 class FramesApart {
  public:
   /// `given` and `ours` have to outlive it.
-  FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours);
+  FramesApart(const FrameFormat& format, const GivenFrame& given, const ColorAndDepth& ours);
   Apart from(const ColorAndDepth& frame) const;
   /// Legal pixels that differ from ours, by what they say of a fault's frame.
   struct Legal {

@@ -19,6 +19,20 @@ bool is_cleared(const FrameFormat& format, const ColorAndDepth& frame, std::size
   return has_clear_depth && !colors_apart(format.clear_color, frame.color.values()[i], kCodes);
 }
 
+// Where the surface at the pixel lies, by a depth outside 0 to 1.
+enum class Beyond { neither, near_plane, far_plane };
+Beyond beyond_planes(const ColorAndDepth& frame, std::size_t i) {
+  constexpr double kOfFloat = 0x1p-20;  // the error of depths in float [window z]
+  if (frame.depth.empty()) return Beyond::neither;
+  const double z = frame.depth.values()[i];
+  return z > 1 + kOfFloat ? Beyond::far_plane : z < -kOfFloat ? Beyond::near_plane : Beyond::neither;
+}
+
+std::string beyond_text(std::size_t pixels, const char* plane) {
+  if (pixels == 0) return "";
+  return fmt::format("depths beyond the {} plane, where all is clipped: {} of these pixels\n", plane, pixels);
+}
+
 }  // namespace
 
 std::string holes_text(const Scene& scene, const GivenFrame& given) {
@@ -27,7 +41,7 @@ std::string holes_text(const Scene& scene, const GivenFrame& given) {
   const ColorAndDepth ours = draw_with({}, *seen, given.conventions);
   if (ours.color.size() != given.color.size()) return "";
   const bool knows_legal = given.is_legal.size() == given.color.size();
-  std::size_t wrong = 0, holes = 0, drawn = 0;
+  std::size_t wrong = 0, holes = 0, drawn = 0, before_near = 0, beyond_far = 0;
   for (std::size_t i = 0; i < given.color.size(); ++i) {
     const bool is_wrong = knows_legal ? given.is_legal.values()[i] == 0
                                       : colors_apart(ours.color.values()[i], given.color.values()[i], kCodes);
@@ -36,12 +50,15 @@ std::string holes_text(const Scene& scene, const GivenFrame& given) {
     const bool is = is_cleared(seen->frame, given, i), expected = is_cleared(seen->frame, ours, i);
     holes += is && !expected;
     drawn += !is && expected;
+    before_near += beyond_planes(given, i) == Beyond::near_plane;
+    beyond_far += beyond_planes(given, i) == Beyond::far_plane;
   }
   if (wrong == 0 || 2 * (holes + drawn) < wrong) return "";
-  return fmt::format(
+  const std::string counted = fmt::format(
       "of {} wrong pixels, {} are as cleared where a surface is to be seen, {} show one where none is: coverage, what "
       "is clipped or culled before it, a test of depth, stencil or alpha, or the clear\n",
       wrong, holes, drawn);
+  return counted + beyond_text(before_near, "near") + beyond_text(beyond_far, "far");
 }
 
 }  // namespace plumbline::cli

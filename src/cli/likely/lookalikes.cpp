@@ -56,7 +56,7 @@ bool has_clear_depth(const FrameFormat& format, const ColorAndDepth& frame) {
 class Trial {
  public:
   Trial(const Scene& scene, const GivenFrame& given, const ColorAndDepth& ours)
-      : scene_(scene), conventions_(given.conventions), apart_(scene.frame.depth, given, ours) {
+      : scene_(scene), conventions_(given.conventions), apart_(scene.frame, given, ours) {
     right_.emplace(CutAt::frame_sides, ours);
     if (cuts(CutAt::frame_sides) != cuts(CutAt::guard_band))
       right_.emplace(CutAt::guard_band, draw_with({}, scene, conventions_, CutAt::guard_band));

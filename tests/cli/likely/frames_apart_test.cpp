@@ -15,6 +15,7 @@ using testing::ElementsAre;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kCode = 1.0f / 255;
 constexpr double kStep = 1.0 / 65535;
+const FrameFormat kFrame = {.depth = DepthFormat::z16};  // cleared to 1
 
 // A frame of one pixel.
 GivenFrame pixel(const glm::vec4& color, double depth) {
@@ -25,9 +26,7 @@ GivenFrame pixel(const glm::vec4& color, double depth) {
 }
 GivenFrame grey(double depth = 0.5) { return pixel({0.5f, 0.5f, 0.5f, 0.5f}, depth); }
 
-Apart apart(const GivenFrame& given, const GivenFrame& frame) {
-  return FramesApart(DepthFormat::z16, given, grey()).from(frame);
-}
+Apart apart(const GivenFrame& given, const GivenFrame& frame) { return FramesApart(kFrame, given, grey()).from(frame); }
 
 // By alpha, too; coarse; by colour, by depth; finely by colour, by depth.
 TEST(FramesApart, CountsByEachLook) {
@@ -75,9 +74,9 @@ TEST(FramesApart, SeesNoDepthsWhereOneFrameHasNone) {
 TEST(FramesApart, PassesOverLegalPixelsThatDifferFromOurs) {
   const GivenFrame ours = grey(), white = pixel({1, 1, 1, 0.5f}, 0.5);
   GivenFrame given = pixel({0.2f, 0.2f, 0.2f, 0.5f}, 0.5);
-  EXPECT_THAT(FramesApart(DepthFormat::z16, given, ours).from(white), ElementsAre(1, 1, 1, 1, 0, 1, 0));
+  EXPECT_THAT(FramesApart(kFrame, given, ours).from(white), ElementsAre(1, 1, 1, 1, 0, 1, 0));
   given.is_legal = given.is_legal_color = {1, 1, std::uint8_t{1}};
-  const FramesApart legal(DepthFormat::z16, given, ours);
+  const FramesApart legal(kFrame, given, ours);
   EXPECT_THAT(legal.from(white), ElementsAre(0, 0, 0, 0, 0, 0, 0));
   EXPECT_THAT(legal.legal(white).against, ElementsAre(1, 1, 1, 1, 0, 1, 0));
   EXPECT_THAT(legal.legal(white).drawn, ElementsAre(0, 0, 0, 0, 0, 0, 0));
@@ -86,24 +85,22 @@ TEST(FramesApart, PassesOverLegalPixelsThatDifferFromOurs) {
   EXPECT_THAT(legal.legal(given).drawn, ElementsAre(1, 1, 1, 1, 0, 1, 0));
 }
 
-// A legal depth that differs from ours: the pixel counts by its colour, but for a frame that moves the depth elsewhere.
 // Neither for a frame nor against it.
 TEST(FramesApart, LeavesOutPixelsThatAreWrongInOurs) {
   GivenFrame given = pixel({1, 0, 0, 1}, 0.25);
-  const FramesApart::Legal none = FramesApart(DepthFormat::z16, given, grey()).legal(grey(0.75));
+  const FramesApart::Legal none = FramesApart(kFrame, given, grey()).legal(grey(0.75));
   given.is_wrong_in_ours = {1, 1, 1};
   EXPECT_THAT(apart(given, grey()), ElementsAre(0, 0, 0, 0, 0, 0, 0));
-  EXPECT_THAT(FramesApart(DepthFormat::z16, given, grey()).legal(grey(0.75)).against, none.against);
+  EXPECT_THAT(FramesApart(kFrame, given, grey()).legal(grey(0.75)).against, none.against);
   given.is_wrong_in_ours = {1, 1, 0};
   EXPECT_THAT(apart(given, grey()), ElementsAre(1, 1, 1, 1, 1, 1, 1));
 }
 
+// A legal depth that differs from ours: the pixel counts by its colour, but for a frame that moves the depth elsewhere.
 TEST(FramesApart, CountsPixelsOfLegalDepthsByTheirColor) {
   const GivenFrame ours = grey();
   GivenFrame given = pixel({1, 1, 1, 0.5f}, 0.5 + 3 * kStep);
-  const auto apart_from = [&](const GivenFrame& frame) {
-    return FramesApart(DepthFormat::z16, given, ours).from(frame);
-  };
+  const auto apart_from = [&](const GivenFrame& frame) { return FramesApart(kFrame, given, ours).from(frame); };
   const GivenFrame white = pixel({1, 1, 1, 0.5f}, 0.5), far_white = pixel({1, 1, 1, 0.5f}, 0.9);
   EXPECT_THAT(apart_from(white), ElementsAre(1, 1, 0, 0, 1, 0, 1)) << "the depth is not known to be legal";
   given.is_legal_depth = {1, 1, std::uint8_t{1}};
@@ -112,6 +109,8 @@ TEST(FramesApart, CountsPixelsOfLegalDepthsByTheirColor) {
   EXPECT_THAT(apart_from(far_white), ElementsAre(1, 1, 0, 0, 1, 0, 1));
   given.depth = {1, 1, 0.9};
   EXPECT_THAT(apart_from(far_white), ElementsAre(0, 0, 0, 0, 0, 0, 0)) << "there, the depth is";
+  given.depth = {1, 1, 1.0};
+  EXPECT_THAT(apart_from(far_white), ElementsAre(1, 1, 0, 0, 1, 0, 1)) << "stage depth judges no cleared depth";
 }
 
 }  // namespace

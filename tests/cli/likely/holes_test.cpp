@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "cli/likely/known_faults.h"
 #include "tests/suite.h"
 
@@ -40,6 +42,18 @@ TEST_F(Holes, AreToldOfAFrameWithoutDepthsToo) {
   change(3, 0);
   given.depth = {};
   EXPECT_TRUE(holes_text(scene, given).starts_with("of 3 wrong pixels, 3 are as cleared"));
+}
+
+TEST_F(Holes, ThatLieBeyondAPlaneAreToldSo) {
+  change(0, 3);
+  EXPECT_EQ(holes_text(scene, given).find("plane"), std::string::npos);
+  double z = 1.25;
+  for (std::size_t i = 0; i < given.color.size(); ++i) {
+    if (given.depth.values()[i] == 0.25) given.depth.values()[i] = std::exchange(z, -0.5);
+  }
+  const std::string text = holes_text(scene, given);
+  EXPECT_NE(text.find("depths beyond the near plane, where all is clipped: 2 of"), std::string::npos) << text;
+  EXPECT_NE(text.find("depths beyond the far plane, where all is clipped: 1 of"), std::string::npos) << text;
 }
 
 TEST_F(Holes, OfLegalPixelsAreNone) {
