@@ -50,5 +50,15 @@ TEST(LearnProvoking, AVertexOfOneWindingAloneFitsNone) {
             "provoking_vertex: a flat triangle of 0.2, 0.5 and 1 is drawn in 0.2, a clockwise one in 1");
 }
 
+TEST(LearnProvoking, IsOpenWhereNoFlatTriangleIsDrawn) {
+  OfAlteredScenes renderer;
+  renderer.after = [](const Scene& scene, Capture& c) {
+    if (scene.name == "probe/provoking_vertex") c.planes.color(4, 4) = c.planes.color(12, 12) = {0, 0, 0, 1};
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_TRUE(leaves_open(found, "provoking_vertex"));
+  EXPECT_TRUE(found.unexplained.empty());
+}
+
 }  // namespace
 }  // namespace plumbline::learn
