@@ -140,21 +140,20 @@ void set_growth(const Projected& scene, const std::array<const Corner*, 3>& c, T
   }
 }
 
-/// edge_displacement() of the edges of a triangle's visible part. Edge functions are stepped over the box of all that
-/// is between the near and far planes.
+/// edge_displacement() of the edges of a triangle's visible part; where steps_whole_box(), of all that is between the
+/// near and far planes.
 glm::dvec2 of_edges(const Projected& scene, const std::array<const Corner*, 3>& c, const Triangle& t,
                     std::span<const glm::dvec2> outline) {
-  const Conventions::DepthArithmetic arithmetic = scene.conventions.depth_arithmetic;
   const glm::dvec2 frame(scene.width, scene.height), half = 0.5 * frame;
   WindowBox box(outline[0] + half);
   for (const glm::dvec2& p : outline) box.add(p + half);
-  if (t.cut && arithmetic == Conventions::DepthArithmetic::in_float_stepped_edges) {
+  if (t.cut && steps_whole_box(scene.conventions)) {
     bool cut = false;
     const Polygon whole = part_inside(scene, c, 2, cut);
     for (std::size_t i = 0; i < whole.count; ++i)
       box.add(glm::dvec2(whole.v[i]) / std::max(whole.v[i].z, kFloatRounding * t.size.w) + half);
   }
-  return edge_displacement(arithmetic, box, frame);
+  return edge_displacement(scene.conventions, box, frame);
 }
 
 /// Sets `guarded`: the pieces of a renderer that does not clip at the sides.

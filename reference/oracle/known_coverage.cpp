@@ -7,6 +7,9 @@
 // inclusive and exclusive are signs of e. Where float computes e, a sample on an edge is open: e may be rounded to
 // either side of 0. Differences of coordinates are exact in float on level and on upright edges, whose products are 0.
 //
+// Edges whose x is added up in fixed point (edge_bits): a sample within Triangle::stepped of one, in x, is open. Level
+// edges have no x.
+//
 // Positions that are floats (settles_ties_of_floats()): coverage is known between corners that no arithmetic rounds.
 // Any rule goes by the sign of e there.
 #include <algorithm>
@@ -34,15 +37,16 @@ bool rounds_ties(const C& c, glm::dvec2 along) {
   return !by_differences || (along.x != 0 && along.y != 0);
 }
 
-// nullopt: float decides.
-std::optional<bool> covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sample, const C& c) {
+// nullopt: float decides, or steps in fixed point, which may move an edge by `moved` in x [as the corners].
+std::optional<bool> covers(const std::array<glm::dvec2, 3>& corners, double sign, glm::dvec2 sample, double moved,
+                           const C& c) {
   std::optional<bool> out = true;
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec2 along = sign * (corners[(i + 1) % 3] - corners[i]), from = sample - corners[i];
     const glm::dvec2 inward(-along.y, along.x);
     const double e = glm::dot(inward, from);
-    const bool is_open = e == 0 && rounds_ties(c, along);
-    if (e < 0 || (e == 0 && !is_open && !owns_ties(c.tie_rule, inward))) return false;
+    const bool is_open = (e == 0 && rounds_ties(c, along)) || std::abs(e) < std::abs(along.y) * moved;
+    if (!is_open && (e < 0 || (e == 0 && !owns_ties(c.tie_rule, inward)))) return false;
     if (is_open) out = std::nullopt;
   }
   return out;
@@ -72,6 +76,7 @@ std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, in
   if (t.flat || t.cut || is_thin || !t.facing_kept || !(settles_ties(c) || settles_ties_of_floats(c)))
     return std::nullopt;
   const double steps = steps_of(c);
+  const double moved = c.edge_bits == C::kFloat ? 0 : steps * t.stepped.x;
   const glm::dvec2 sample = steps * (glm::dvec2(scene.ray(px, py)) + scene.middle());
   std::array<GridPoints, 3> points;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -82,7 +87,7 @@ std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, in
   for (std::size_t n = 0; n < points[0].count * points[1].count * points[2].count; ++n) {
     const std::size_t i = n % points[0].count, k = n / points[0].count % points[1].count,
                       l = n / points[0].count / points[1].count;
-    const auto covered = covers({points[0].at[i], points[1].at[k], points[2].at[l]}, t.sign, sample, c);
+    const auto covered = covers({points[0].at[i], points[1].at[k], points[2].at[l]}, t.sign, sample, moved, c);
     if (!covered || (known && *known != *covered)) return std::nullopt;
     known = covered;
   }

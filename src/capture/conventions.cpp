@@ -117,6 +117,12 @@ std::vector<Mistake> mistakes_of(const Conventions& conventions) {
     out.push_back({"subpixel_bits",
                    fmt::format("convention subpixel_bits: {}, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)",
                                conventions.subpixel_bits)});
+  constexpr int kLeastEdgeBits = 14;
+  if (conventions.edge_bits != Conventions::kFloat && conventions.edge_bits < kLeastEdgeBits)
+    out.push_back({"edge_bits",
+                   fmt::format("convention edge_bits: {}, expected {} or more: over 1,024 rows an edge errs by {:.3g} "
+                               "pixel, beyond 1/16, that of the least SUBPIXEL_BITS (OpenGL 2.1)",
+                               conventions.edge_bits, kLeastEdgeBits, std::ldexp(1024, -conventions.edge_bits))});
   if (std::min(conventions.offset_unit.x, conventions.offset_unit.y) < 1)
     out.push_back(
         {kOffsetWords.name,

@@ -56,6 +56,8 @@ struct Conventions {
   double float_offset_unit = 0;
   /// Fraction bits of window positions, which are snapped to 2^-bits pixel: 0 to 16; kFloat: positions are not snapped.
   int subpixel_bits = 8;
+  /// Fraction bits of an edge's x, which is added up from row to row; or kFloat: of floats, or not added up.
+  int edge_bits = kFloat;
   /// Fraction bits of texture filters' weights; or kFloat.
   int texture_bits = kFloat;
   Rows rows = Rows::from_bottom;
@@ -249,6 +251,8 @@ template <class Visit>
 void each_number_of_bits(Visit visit) {
   using C = Conventions;
   visit(ConventionWords{"subpixel_bits", "window positions' fraction bits", true}, &C::subpixel_bits);
+  visit(ConventionWords{"edge_bits", "fraction bits of edges' x, which is added up from row to row", true},
+        &C::edge_bits);
   visit(ConventionWords{"texture_bits", "fraction bits of texture filters' weights", true}, &C::texture_bits);
 }
 

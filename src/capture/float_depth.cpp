@@ -33,7 +33,7 @@ double or_infinite(double v) { return std::isfinite(v) ? v : kInfinity; }
 
 double sum_of(glm::dvec2 v) { return v.x + v.y; }
 
-// edge_displacement() of an edge whose x is stepped [u of a pixel].
+// Displacement of an edge whose x is stepped in float [u of a pixel].
 double stepped_edge(double rows, double most_x) { return 2 * (std::ceil(rows) + 2) * most_x; }
 
 bool is_from_origin(Conventions::DepthArithmetic arithmetic) {
@@ -51,7 +51,9 @@ double steps_over(glm::dvec2 box) { return sum_of(glm::ceil(box) + 2.0); }
 
 }  // namespace
 
-glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, const WindowBox& box, glm::dvec2 frame) {
+namespace {
+
+glm::dvec2 displacement_in_float(Conventions::DepthArithmetic arithmetic, const WindowBox& box, glm::dvec2 frame) {
   using enum Conventions::DepthArithmetic;
   const glm::dvec2 size = box.high - box.low, in_frame = glm::min(size, frame);
   const double most_x = std::max(std::abs(box.low.x), std::abs(box.high.x));
@@ -61,6 +63,22 @@ glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, const Wind
   const double of_first = 4 * std::numbers::sqrt2 * glm::length(size + 2.0),
                of_steps = steps_over(walked) * glm::length(walked) + sum_of(walked);
   return glm::dvec2(kU * (of_first + of_steps));
+}
+
+}  // namespace
+
+glm::dvec2 edge_displacement(const Conventions& conventions, const WindowBox& box, glm::dvec2 frame) {
+  glm::dvec2 out = displacement_in_float(conventions.depth_arithmetic, box, frame);
+  if (conventions.edge_bits != Conventions::kFloat) {
+    const double rows = std::ceil(box.high.y - box.low.y) + 4;
+    out.x += std::ldexp(rows, -conventions.edge_bits);
+  }
+  return out;
+}
+
+bool steps_whole_box(const Conventions& conventions) {
+  return conventions.edge_bits != Conventions::kFloat ||
+         conventions.depth_arithmetic == Conventions::DepthArithmetic::in_float_stepped_edges;
 }
 
 double error_by_edge_functions(const WindowCorners& corners, glm::dvec2 p) {

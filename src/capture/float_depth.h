@@ -52,11 +52,17 @@ struct WindowBox {
 ///   part's diagonal times the edge's length. Divided by that length, its errors are: for each step a rounding of that
 ///   size and one of the step itself, and 4 u of the terms at the part's corner, which the box's own diagonal bounds.
 ///   The displacement may point in any direction.
+/// - edge_bits N: x, of N fraction bits, is added up from row to row: 2^-N a row of the box, the error of a slope that
+///   is cut off, and two more at each end.
 /// - Otherwise 0.
-glm::dvec2 edge_displacement(Conventions::DepthArithmetic arithmetic, const WindowBox& box, glm::dvec2 frame);
+/// `box`: of the triangle's part in the frame or, where steps_whole_box(), of all that is drawn of it.
+glm::dvec2 edge_displacement(const Conventions& conventions, const WindowBox& box, glm::dvec2 frame);
+
+/// Whether steps begin at a triangle's own corners, in the frame or not.
+bool steps_whole_box(const Conventions& conventions);
 
 /// Error that stepping z to p adds to a plane's error [u of window z]: a sum for each row and for each column, of
-/// numbers of at most the largest |z_i|; in_float_stepped: and |dz/dx| times edge_displacement(), as the edge's x is
+/// numbers of at most the largest |z_i|; in_float_stepped: and |dz/dx| times the edge's displacement, as its x is
 /// stepped, too. `frame`: its size [pixels]. One product, whose error error_by_plane() counts, replaces the steps over
 /// rows and columns beyond the frame.
 double error_by_steps(Conventions::DepthArithmetic arithmetic, const WindowCorners& corners, glm::dvec2 p,

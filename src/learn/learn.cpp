@@ -27,6 +27,7 @@ const std::vector<Probe>& probes() {
       {learn_depth_corners, {"depth_corners"}},
       {learn_depth_arithmetic, {"depth_arithmetic"}},
       {learn_depth_of, {"depth_of"}},
+      {learn_edge_steps, {"edge_bits"}},
       {learn_provoking_vertex, {"provoking_vertex"}},
       {learn_alpha, {"alpha"}},
       {learn_alpha_test, {"alpha_test"}},

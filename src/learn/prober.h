@@ -87,6 +87,7 @@ void learn_depths(Prober& prober);
 void learn_grid(Prober& prober);
 void learn_depth_arithmetic(Prober& prober);
 void learn_depth_of(Prober& prober);
+void learn_edge_steps(Prober& prober);
 void learn_ties(Prober& prober);
 void learn_colors(Prober& prober);
 void learn_interpolation(Prober& prober);

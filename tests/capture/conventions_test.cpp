@@ -35,7 +35,7 @@ TEST_F(ConventionsFile, WhatIsWrittenIsReadBack) {
   C c;
   c.sample = {0, 0.25};
   c.offset_unit = {1, 1.01}, c.float_offset_unit = 0x1p-23;
-  c.subpixel_bits = C::kFloat, c.texture_bits = 8;
+  c.subpixel_bits = C::kFloat, c.texture_bits = 8, c.edge_bits = 16;
   c.rows = C::Rows::from_top, c.tie_rule = C::TieRule::right_top, c.depth_range = C::DepthRange::one_to_zero;
   c.level_of_detail = C::LevelOfDetail::approximate, c.blending = C::Blending::in_codes;
   c.open = {"sample", "blending"}, c.unexplained = {"one scene \"drawn\" twice differs"};
@@ -80,22 +80,26 @@ TEST(Conventions, OnlyMistakesAreNamed) {
   C free;
   free.subpixel_bits = 4, free.offset_unit = {1, 1}, free.tie_rule = C::TieRule::right_top,
   free.depth_rounding = C::Rounding::down;
-  free.depth_format = C::Depth::z32f, free.blending = C::Blending::in_codes;
+  free.edge_bits = 14, free.depth_format = C::Depth::z32f, free.blending = C::Blending::in_codes;
   EXPECT_TRUE(mistaken(free).empty());
   EXPECT_TRUE(mistaken(undeclared()).empty());
   C wrong;
-  wrong.sample = {0, 0}, wrong.subpixel_bits = 3, wrong.offset_unit = {1, 0.5};
+  wrong.sample = {0, 0}, wrong.subpixel_bits = 3, wrong.edge_bits = 11, wrong.offset_unit = {1, 0.5};
   wrong.rows = C::Rows::from_top, wrong.tie_rule = C::TieRule::exclusive, wrong.depth_format = C::Depth::z16;
   wrong.unexplained = {"one scene drawn twice differs"};
   const std::vector<std::string> lines = mistaken(wrong);
-  ASSERT_EQ(lines.size(), 7u);
+  ASSERT_EQ(lines.size(), 8u);
   EXPECT_EQ(lines[0], "convention sample: 0, 0, expected 0.5, 0.5 (the sample's place in its pixel)");
   EXPECT_EQ(lines[1],
             "convention rows: from_top, expected from_bottom (the order of the picture's rows, or y turned round)");
   EXPECT_EQ(lines[4], "convention subpixel_bits: 3, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)");
-  EXPECT_EQ(lines[5],
+  EXPECT_EQ(
+      lines[5],
+      "convention edge_bits: 11, expected 14 or more: over 1,024 rows an edge errs by 0.5 pixel, beyond 1/16, that "
+      "of the least SUBPIXEL_BITS (OpenGL 2.1)");
+  EXPECT_EQ(lines[6],
             "convention offset_unit: 1, 0.5, expected 1 or more: a unit makes depths differ (OpenGL 2.1, 3.5.5)");
-  EXPECT_EQ(lines[6], "no convention: one scene drawn twice differs");
+  EXPECT_EQ(lines[7], "no convention: one scene drawn twice differs");
 }
 
 TEST(Conventions, RoundingsMakeWholeNumbers) {

@@ -104,6 +104,21 @@ TEST(SettledCoverage, FloatsSettleTiesBetweenCornersThatNoArithmeticRounds) {
   }
 }
 
+// A side of 200 rows at 1/256 pixel beside a sample: 204 steps of 2^-15 pixel reach it, of 2^-16 pixel do not.
+TEST(SettledCoverage, StepsInFixedPointLeaveOpenAsMuchAsTheyAddUpTo) {
+  constexpr float at = 100.5f + 1.0f / 256;
+  const Scene scene = window_scene({{glm::vec3(10, 3, 0.5f), {at, 3, 0.5f}, {at, 203, 0.5f}}}, 256);
+  C fixed = declared(C::TieRule::left_bottom);
+  fixed.edge_bits = 15;
+  const Legal by_15 = legal(scene, fixed);
+  EXPECT_NE(by_15.certain(100, 40), by_15.possible(100, 40));
+  EXPECT_EQ(by_15.certain(99, 40), 1u);
+  EXPECT_EQ(by_15.possible(101, 40), 0u);
+  fixed.edge_bits = 16;
+  const Legal by_16 = legal(scene, fixed);
+  EXPECT_EQ(by_16.certain(100, 40), 1u);
+}
+
 // Samples on edges stay open where the grid is unknown, or float arithmetic decides to which grid point a corner
 // snaps.
 TEST(SettledCoverage, ATieRuleSettlesNothingWithoutPlaces) {

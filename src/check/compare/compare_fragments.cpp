@@ -90,7 +90,7 @@ namespace {
 double of_steps(const WindowTriangle<double>& t, const Conventions& conventions, glm::dvec2 frame) {
   WindowBox box{glm::dvec2(t.v[0].p_win)};
   for (const WindowVertex<double>& v : t.v) box.add(glm::dvec2(v.p_win));
-  return glm::length(edge_displacement(conventions.depth_arithmetic, box, frame));
+  return glm::length(edge_displacement(conventions, box, frame));
 }
 
 // Error of an edge function in float [pixels]: 8 u of the largest coordinates.

@@ -352,14 +352,15 @@ bool differs_from_opengl(const Scene& scene, const Conventions& conventions, Sta
     return true;
   if (stage >= Stage::merge && conventions.alpha == C::Alpha::none && !is_opaque(scene)) return true;
   return !mistaken(conventions).empty() || conventions.subpixel_bits != C().subpixel_bits ||
-         conventions.subpixel_rounding != C::Rounding::nearest || conventions.depth_format != C::Depth::as_asked;
+         conventions.edge_bits != C::kFloat || conventions.subpixel_rounding != C::Rounding::nearest ||
+         conventions.depth_format != C::Depth::as_asked;
 }
 
 bool knows_ties(const Scene& scene, const Conventions& c) {
   using enum C::TieRule;
   const bool is_of_sides =
       c.tie_rule == left_bottom || c.tie_rule == left_top || c.tie_rule == right_bottom || c.tie_rule == right_top;
-  return is_of_sides && settles_ties(c) && c.subpixel_bits <= 8 && !scene.frame.pass.sample;
+  return is_of_sides && settles_ties(c) && c.subpixel_bits <= 8 && c.edge_bits == C::kFloat && !scene.frame.pass.sample;
 }
 
 Capture run_by_conventions(Renderer& referee, const Scene& scene, Stage stage, const Capture& in,

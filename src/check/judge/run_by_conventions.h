@@ -19,8 +19,8 @@ bool fogs_otherwise(const Scene& scene, const Conventions& conventions);
 bool differs_from_opengl(const Scene& scene, const Conventions& conventions, Stage stage);
 
 /// Whether run_by_conventions() knows which triangle owns a sample on an edge: the rule is settled (conventions.h,
-/// settles_ties), by left or right and bottom or top, on a grid that window.snapped holds (at most 8 bits); pixels are
-/// sampled at their centres.
+/// settles_ties), by left or right and bottom or top, on a grid that window.snapped holds (at most 8 bits); edges are
+/// not added up in fixed point; pixels are sampled at their centres.
 bool knows_ties(const Scene& scene, const Conventions& conventions);
 
 /// referee.run_stage(scene, stage, in), but for what the conventions say otherwise than OpenGL:

@@ -235,7 +235,8 @@ Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict
 bool covers_as_ours(const Conventions& c) {
   const Conventions ours;
   return c.sample == ours.sample && c.subpixel_bits == ours.subpixel_bits &&
-         c.subpixel_rounding == ours.subpixel_rounding && c.attribute_corners == ours.attribute_corners &&
+         c.subpixel_rounding == ours.subpixel_rounding && c.edge_bits == ours.edge_bits &&
+         c.attribute_corners == ours.attribute_corners &&
          (c.tie_rule == ours.tie_rule || c.tie_rule == Conventions::TieRule::left_bottom);
 }
 

@@ -16,6 +16,12 @@ namespace {
 
 constexpr double kU = 0x1p-24;
 
+Conventions by(Conventions::DepthArithmetic arithmetic) {
+  Conventions out;
+  out.depth_arithmetic = arithmetic;
+  return out;
+}
+
 struct EdgeFunction {
   float of_column, of_row, at_first;  // changes of the edge function from pixel to pixel; its value at the box's corner
 };
@@ -87,7 +93,7 @@ EdgeRatios largest_edge_ratios(double reach) {
     for (const glm::dvec3& corner : at.corners) box.add(glm::dvec2(corner));
     const double length = glm::length(glm::dvec2(at.corners[1] - at.corners[0])), function = at.b2 * at.area,
                  moved = std::abs(static_cast<double>(stepped.at(at.x, at.y)[2]) - function) / length,
-                 bound = edge_displacement(in_float_stepped_edges, box, at.frame).x;
+                 bound = edge_displacement(by(in_float_stepped_edges), box, at.frame).x;
     if (std::abs(function) <= length * glm::length(at.frame))  // the edge's line passes through the frame
       out.of_displacement = std::max(out.of_displacement, moved / bound);
   });
@@ -121,8 +127,8 @@ TEST(SteppedEdgeFunctions, StepInTheFrameAlone) {
   EXPECT_LT(10 * error_by_stepped_edges(corners, p, frame), error_by_stepped_edges(corners, p, kNoSides));
   WindowBox box(glm::dvec2(0));
   box.add({100, 100});
-  EXPECT_EQ(edge_displacement(in_float, box, frame), glm::dvec2(0));
-  const glm::dvec2 moved = edge_displacement(in_float_stepped_edges, box, frame);
+  EXPECT_EQ(edge_displacement(by(in_float), box, frame), glm::dvec2(0));
+  const glm::dvec2 moved = edge_displacement(by(in_float_stepped_edges), box, frame);
   EXPECT_EQ(moved.x, moved.y);
   EXPECT_GE(moved.x, kU * 200 * std::hypot(100.0, 100.0));
   EXPECT_EQ(depth_error_of_pieces(in_float_stepped_edges, 0, 1, {4000, 4000}, frame),

@@ -6,7 +6,8 @@ namespace plumbline::check {
 namespace {
 
 // A side rises over 1,800 rows at x = 1,900 pixels; the centre of (1900, 900) lies `outside` pixels beyond it.
-Measurement extra_fragment(double outside, Conventions::DepthArithmetic arithmetic, glm::dvec2 frame = kNoSides) {
+Measurement extra_fragment(double outside, Conventions::DepthArithmetic arithmetic, glm::dvec2 frame = kNoSides,
+                           int edge_bits = Conventions::kFloat) {
   const double x = 1900.5 - outside;
   Records<double> reference;
   WindowTriangle<double> t{};
@@ -21,6 +22,7 @@ Measurement extra_fragment(double outside, Conventions::DepthArithmetic arithmet
   conventions.subpixel_bits = Conventions::kFloat;
   conventions.tie_rule = Conventions::TieRule::left_top;
   conventions.depth_arithmetic = arithmetic;
+  conventions.edge_bits = edge_bits;
   return compare_covered_except_edges(candidate, reference, conventions, glm::dvec2(0.5), frame);
 }
 
@@ -33,6 +35,18 @@ TEST(SteppedEdges, MayCoverAsFarAsTheirRoundingsReach) {
   for (const Conventions::DepthArithmetic other : {in_double, in_float, in_float_from_origin}) {
     EXPECT_EQ(extra_fragment(0.95 * by_grid, other).differing, 0u);
     EXPECT_TRUE(fails(extra_fragment(1.05 * by_grid, other)));
+  }
+}
+
+// A rounded slope moves an edge by the rows from its end, in the frame or beyond it.
+TEST(SteppedEdges, InFixedPointMayCoverAsFarAsTheirBitsReach) {
+  using enum Conventions::DepthArithmetic;
+  for (const int bits : {12, 14}) {
+    const double reach = std::ldexp(1804, -bits);
+    for (const glm::dvec2 frame : {kNoSides, glm::dvec2(2000, 100)}) {
+      EXPECT_EQ(extra_fragment(0.95 * reach, in_double, frame, bits).ambiguous, 1u) << bits;
+      EXPECT_TRUE(fails(extra_fragment(1.05 * reach, in_double, frame, bits))) << bits;
+    }
   }
 }
 
