@@ -219,7 +219,8 @@ std::vector<KnownFault> of_pictures(const FrameFormat& frame) {
 
 constexpr std::string_view kOtherSide = ", or to another side";
 
-constexpr std::array kTruncations = {std::string_view("merge.truncated"), std::string_view("depth.truncated")};
+// Faults that conventions may declare by mistake.
+constexpr std::array<std::string_view, 3> kLifted = {"merge.truncated", "depth.truncated", "coverage.top_for_bottom"};
 
 // Fault whose corners lie in the declared whole pixels. Frames are drawn with samples at centres: borders of pixels
 // that are sampled at corners become centres. Empty: there is none.
@@ -255,12 +256,15 @@ bool is_among(std::string_view fault, std::span<const std::string_view> faults) 
   return std::ranges::find(faults, fault) != faults.end();
 }
 
-// Rounding to the nearest where the conventions declare `fault`, truncation.
+// What is drawn without `fault`, one of kLifted, where the conventions declare it.
 KnownFault not_as_declared(const FaultInfo& fault) {
   const std::string stage(fault.stage);
+  const bool is_of_ties = stage == "coverage";
+  const char* drawn = is_of_ties ? "left and lower edges own their samples, not left and upper ones"
+                                 : "rounded to the nearest code, not down";
   return {.stage = stage,
-          .name = stage + ".to_nearest",
-          .says = "rounded to the nearest code, not down, as the conventions declare: run plumb learn again",
+          .name = stage + (is_of_ties ? ".left_bottom" : ".to_nearest"),
+          .says = fmt::format("{}, as the conventions declare: run plumb learn again", drawn),
           .lifts = std::string(fault.name)};
 }
 
@@ -295,7 +299,7 @@ std::vector<KnownFault> picture_faults() {
   all.push_back(codes_for_numbers());
   all.push_back(depth_of_inv_w(Conventions::DepthRange::zero_to_one));
   for (const FaultInfo& fault : fault_infos()) {
-    if (is_among(fault.name, kTruncations)) all.push_back(not_as_declared(fault));
+    if (is_among(fault.name, kLifted)) all.push_back(not_as_declared(fault));
   }
   std::ranges::move(misread_states(), std::back_inserter(all));
   for (KnownFault& fault : all) {
@@ -315,7 +319,7 @@ std::vector<KnownFault> known_faults(const Scene& scene, const GivenFrame& given
   const std::span<const std::uint8_t> legal = given.is_legal.values();
   const bool is_all_legal = !legal.empty() && std::ranges::all_of(legal, [](std::uint8_t l) { return l != 0; });
   for (const FaultInfo& fault : fault_infos()) {  // a wrong declaration comes before faults that draw the same frame
-    const bool is_declared = is_among(fault.name, kTruncations) && is_among(fault.name, declared);
+    const bool is_declared = is_among(fault.name, kLifted) && is_among(fault.name, declared);
     if (is_declared && !is_all_legal) out.push_back(not_as_declared(fault));
   }
   if (may_hold_codes(scene.frame, given.color)) out.push_back(codes_for_numbers());

@@ -221,6 +221,17 @@ TEST(KnownFaults, AreDrawnByDeclaredInterpolationFogTiesAndWholePixels) {
   }
 }
 
+// A frame of OpenGL's tie rule by conventions that declare another.
+TEST(KnownFaults, ATieRuleThatIsDeclaredByMistakeIsNamed) {
+  const Scene scene = suite_scene("coverage/on_centres");
+  C left_top;
+  left_top.tie_rule = C::TieRule::left_top;
+  const Lookalikes found = lookalikes(scene, {draw_with({}, scene, {}), left_top, {}});
+  EXPECT_EQ(found.likely, "coverage (fault coverage.left_bottom)") << found.text;
+  EXPECT_TRUE(found.whole) << found.text;
+  EXPECT_EQ(find(known_by({}), "coverage.left_bottom"), nullptr);
+}
+
 // Faults are pictures: none is tried in a large scene, which is said.
 TEST(KnownFaults, AreNotTriedInLargeScenes) {
   Scene scene = suite_scene("light/emission");
