@@ -24,15 +24,17 @@ constexpr int kFrameColumns = 128, kFrameRows = 1024, kStripColumns = 8,
               kSteepTriangles = kFrameColumns / kStripColumns, kLowerSide = 6;
 
 // A triangle whose lower side is the bottom of a strip of 8 columns, and whose corner on top lies `shift` columns right
-// of the strip, `rows` above it [pixels]: its sides' slopes, shift / rows and (shift - 6) / rows, have no last bit.
+// of the strip, `rows` above it [pixels]. Fixed point holds neither side's slope, shift / rows and (shift - 6) / rows,
+// and at most one sample lies on a side. The first row and the last, whose samples may lie on the lower side and on the
+// corner, do not count.
 struct Steep {
-  int low, shift;
-  double rows;
+  int low, shift, rows;
+  bool counts(int row) const { return row > 0 && row < rows - 1; }
 };
 std::vector<Steep> steep_triangles() {
   std::vector<Steep> out;
   for (int i = 0; i < kSteepTriangles; ++i)
-    out.push_back({kStripColumns * i, (3 * i) % (kLowerSide + 1), 1001.0 - 6 * i});
+    out.push_back({kStripColumns * i, 1 + (3 * i) % (kLowerSide - 1), 1001 - 6 * i});
   return out;
 }
 
@@ -40,15 +42,17 @@ std::vector<int> samples_drawn(Prober& prober, const std::vector<Steep>& triangl
   Scene scene = probe_frame("edge_steps", kFrameColumns, kFrameRows);
   std::vector<std::array<ProbeCorner, 3>> corners;
   for (const Steep& t : triangles) {
-    const auto at = [](double x, double y) { return ProbeCorner{{x, y, kFlatDepth}, glm::vec4(1), {}}; };
+    const auto at = [](int x, int y) { return ProbeCorner{{x, y, kFlatDepth}, glm::vec4(1), {}}; };
     corners.push_back({at(t.low, 0), at(t.low + kLowerSide, 0), at(t.low + t.shift, t.rows)});
   }
   add_triangles(scene, corners);
   const Plane<glm::vec4> color = prober.draw(scene).color;
-  std::vector<int> out(triangles.size(), 0);
-  for (int y = 0; y < kFrameRows; ++y) {
-    for (int x = 0; x < kFrameColumns; ++x)
-      out[static_cast<std::size_t>(x / kStripColumns)] += is_white(color(x, y)) ? 1 : 0;
+  std::vector<int> out;
+  for (const Steep& t : triangles) {
+    out.push_back(0);
+    for (int y = 0; y < kFrameRows; ++y) {
+      for (int x = t.low; x < t.low + kStripColumns; ++x) out.back() += t.counts(y) && is_white(color(x, y)) ? 1 : 0;
+    }
   }
   return out;
 }
@@ -68,13 +72,13 @@ double in_bits(double slope, int bits, Slopes rounding) {
 
 // Samples between a triangle's sides whose slopes are of so many fraction bits.
 int samples_between(const Steep& t, glm::dvec2 sample, int bits, Slopes rounding) {
-  const double left = in_bits(t.shift / t.rows, bits, rounding),
-               right = in_bits((t.shift - kLowerSide) / t.rows, bits, rounding);
+  const double rows = t.rows, left = in_bits(t.shift / rows, bits, rounding),
+               right = in_bits((t.shift - kLowerSide) / rows, bits, rounding);
   const auto first_beyond = [&](double x) { return static_cast<int>(std::ceil(x - sample.x)); };
   int out = 0;
-  for (int y = 0; y + sample.y < t.rows; ++y) {
+  for (int y = 0; y < t.rows; ++y) {
     const double above = y + sample.y;
-    out += std::max(first_beyond(kLowerSide + right * above) - first_beyond(left * above), 0);
+    if (t.counts(y)) out += std::max(first_beyond(kLowerSide + right * above) - first_beyond(left * above), 0);
   }
   return out;
 }

@@ -52,6 +52,16 @@ TEST(LearnEdgeSteps, FindsTheBitsOfFixedPoint) {
   }
 }
 
+// Whole pixels are samples: the triangles' lower sides and corners lie on some.
+TEST(LearnEdgeSteps, AreOfFloatsWhereCornersAreSampled) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) { scene.frame.pass.shift += 0.5; };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.sample, glm::dvec2(0));
+  EXPECT_EQ(found.edge_bits, C::kFloat);
+  EXPECT_FALSE(leaves_open(found, "edge_bits"));
+}
+
 TEST(LearnEdgeSteps, AreOpenWhereNoNumberOfBitsExplainsTheSides) {
   OfAlteredScenes renderer;
   renderer.after = [](const Scene& scene, Capture& c) {
