@@ -81,7 +81,7 @@ struct Triangle {
     glm::dvec2 extent{0};             ///< [pixels] twice their corners' largest |x|, |y| from its middle
     double w_min = 0;                 ///< of their corners
   } guarded;
-  glm::dvec2 stepped{0};  ///< [pixels] displacement of its edges in x and y where float steps them
+  glm::dvec2 stepped{0};  ///< [pixels] displacement of its edges in x and y by steps, in float or fixed point
   /// Corners so near to a plane that float may cut them off, where positions are not snapped. Then a piece may be a
   /// sliver along an edge or a diagonal from there, no wider than `reach` [pixels]. `at`: [pixels from the window's
   /// middle].

@@ -100,7 +100,7 @@ double most_by_float_sums(const Conventions& conventions) {
 }
 
 // Fewest apart, then most bits; of fixed point that explains all triangles but for the roundings of both sides' first
-// x, and a sample on a side.
+// x, and a sample on a side. Slopes of few bits, which may round more, are off by many more samples.
 struct Fixed {
   int bits, apart;
 };
@@ -120,7 +120,7 @@ std::optional<Fixed> fixed_of(const std::vector<Steep>& triangles, const std::ve
 }  // namespace
 
 void learn_edge_steps(Prober& prober) {
-  constexpr int kMostDeclared = 16;
+  constexpr int kMostDeclared = 16, kOfTies = 2;
   const ConventionWords words = words_of("edge_bits");
   C& c = prober.learned.conventions;
   if (prober.open_if_any_open(words, {kSampleWords.name})) return;
@@ -130,7 +130,7 @@ void learn_edge_steps(Prober& prober) {
     return fmt::format("samples of {} steep triangles of 1,000 rows, {} off at most", triangles.size(), apart);
   };
   const int of_exact = most_apart(triangles, drawn, c.sample, 0, Slopes::exact);
-  if (of_exact <= 1 + most_by_float_sums(c)) return prober.found(words, "float", evidence(of_exact));
+  if (of_exact <= kOfTies + most_by_float_sums(c)) return prober.found(words, "float", evidence(of_exact));
   const std::optional<Fixed> fixed = fixed_of(triangles, drawn, c.sample);
   if (!fixed) return prober.open(words, evidence(of_exact) + ", as by no number of bits");
   c.edge_bits = std::min(fixed->bits, kMostDeclared);

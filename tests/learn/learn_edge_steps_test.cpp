@@ -62,6 +62,27 @@ TEST(LearnEdgeSteps, AreOfFloatsWhereCornersAreSampled) {
   EXPECT_FALSE(leaves_open(found, "edge_bits"));
 }
 
+// Mistakes of coverage are no fixed point, which would let them pass.
+TEST(LearnEdgeSteps, AreNoFixedPointWhereCoverageIsWrong) {
+  for (const faults::Fault& fault : faults::of_stages()) {
+    if (!fault.name.starts_with("coverage.")) continue;
+    EXPECT_EQ(learned(faulted(std::string(fault.name))).edge_bits, C::kFloat) << fault.name;
+  }
+}
+
+// Sides that lie 0.008 pixel farther out in the mean: 8 samples of each triangle.
+TEST(LearnEdgeSteps, AreOpenWhereSidesAreMovedAlike) {
+  OfAlteredScenes renderer;
+  renderer.before = [](Scene& scene) {
+    if (scene.name != "probe/edge_steps") return;
+    Mesh& mesh = scene.meshes.at(0);
+    for (const glm::uvec3& t : mesh.triangles) mesh.positions[t.y].x += 0.016f;
+  };
+  const C found = learn(renderer).conventions;
+  EXPECT_EQ(found.edge_bits, C::kFloat);
+  EXPECT_TRUE(leaves_open(found, "edge_bits"));
+}
+
 TEST(LearnEdgeSteps, AreOpenWhereNoNumberOfBitsExplainsTheSides) {
   OfAlteredScenes renderer;
   renderer.after = [](const Scene& scene, Capture& c) {

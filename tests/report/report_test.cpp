@@ -134,7 +134,8 @@ TEST_F(Reports, FailuresNameStagePlaceNumbersAndCommand) {
   }
   EXPECT_FALSE(contains(lines, "merge"));
   EXPECT_FALSE(contains(lines, "an earlier one"));
-  EXPECT_TRUE(contains(failure_lines(verdict_of({later}), {}, "again"), "merge (against osmesa), or an earlier one: 17"));
+  EXPECT_TRUE(
+      contains(failure_lines(verdict_of({later}), {}, "again"), "merge (against osmesa), or an earlier one: 17"));
   later.judge = check::JudgeId("exact", check::Kind::per_stage);
   EXPECT_TRUE(contains(failure_lines(verdict_of({later, first}), {}, "again"), "wrong by themselves: merge"));
   later.outcome = Outcome::within;

@@ -105,8 +105,8 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
   }
   if (const Comparison* first = check::first_different(verdict)) {
     const check::Worst& w = first->measurement.worst;
-    out += fmt::format("different {}: first different stage: {} (against {}){}: {} of {} beyond tolerance", first->scene,
-                       name_of(first->stage), title_of(first->judge),
+    out += fmt::format("different {}: first different stage: {} (against {}){}: {} of {} beyond tolerance",
+                       first->scene, name_of(first->stage), title_of(first->judge),
                        check::is_by_frame_alone(verdict) ? ", or an earlier one" : "", first->measurement.differing,
                        first->measurement.items);
     if (!first->note.empty()) out += "; " + first->note;
