@@ -87,8 +87,9 @@ Terms terms_of(const Matrices<double>& m, const glm::dvec4& p, int row) {
 
 // Corner::is_exact: w is a power of 2, so that 1 / w is, too; x_win = (x / w + 1) width / 2, or the sum of these terms.
 bool is_exact(const Matrices<double>& m, const glm::dvec4& p, const glm::dvec4& p_clip, glm::ivec2 frame) {
+  if (!(p_clip.w > 0 && std::isfinite(p_clip.w))) return false;
   const int of_w = lowest_bit(p_clip.w);
-  if (!(p_clip.w > 0) || std::ldexp(1.0, of_w) != p_clip.w || !terms_of(m, p, 3).are_floats()) return false;
+  if (std::ldexp(1.0, of_w) != p_clip.w || !terms_of(m, p, 3).are_floats()) return false;
   for (int i = 0; i < 2; ++i) {
     const Terms clip = terms_of(m, p, i);
     const double half = 0.5 * frame[i], x = std::abs(p_clip[i] / p_clip.w);
@@ -115,6 +116,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   const bool two = scene.light_model.sides == LightModel::Sides::two, separate = scene.light_model.separate_specular;
   const auto first = static_cast<std::uint32_t>(out.corners.size());
   const LitDraw lit{scene, draw, out.lights};
+  const bool of_floats = settles_ties_of_floats(out.conventions);
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::dvec4 p(mesh.positions[i], 1);
     const glm::dvec3 p_eye(m.model_view * p), n_eye = normal_in_eye_space(draw.normals, m.normal, mesh.normals[i]);
@@ -146,7 +148,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.n_eye = normal.v;
     corner.n_eye_error = normal.error;
     corner.point = first + point[i];
-    corner.is_exact = is_exact(m, p, c, {scene.frame.width, scene.frame.height});
+    corner.is_exact = of_floats && is_exact(m, p, c, {scene.frame.width, scene.frame.height});
     out.corners.push_back(corner);
   }
 }

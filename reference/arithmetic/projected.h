@@ -38,7 +38,7 @@ struct Corner {
   glm::dvec3 p_eye, n_eye;  ///< position and normal in eye space, for light per fragment
   double p_eye_error, n_eye_error;
   std::uint32_t point;    ///< equal for vertices of one draw whose positions are bit-equal
-  bool is_exact = false;  ///< floats hold its window position and all that the position is computed from
+  bool is_exact = false;  ///< floats hold its window position, and all on the way there; of settles_ties_of_floats()
 };
 
 /// Interval of a polygon offset: [middle - half, middle + half] [window z].

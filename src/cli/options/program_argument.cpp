@@ -239,7 +239,7 @@ std::string convention_notes(const std::string& file) {
   if (!conventions.accepted.empty())
     out += fmt::format("accepted by {}, if mistaken: {}\n", file, fmt::join(conventions.accepted, ", "));
   if (by_floats)
-    out += "judged between corners that no arithmetic in float rounds alone: which triangle owns a sample on an edge\n";
+    out += "judged only between corners that no arithmetic in float rounds: which triangle owns a sample on an edge\n";
   if (!settles)
     out += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
                        file.empty() ? "no tie rule is declared: plumb learn"
