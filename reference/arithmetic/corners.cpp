@@ -158,7 +158,7 @@ GridPoints grid_points(const Projected& scene, const Corner& corner) {
                               of_y = subpixel_rounding(scene.conventions, 1);
   const double steps = steps_of(scene), before = of_x == Conventions::Rounding::nearest ? 0 : kOfFixedPoint;
   const glm::dvec2 off = steps * (corner_displacement(scene, corner) + before);
-  const glm::dvec2 at = steps * (glm::dvec2(corner.v) / corner.v.z + scene.middle());
+  const glm::dvec2 at = steps * scene.place(corner);
   GridPoints out;
   if (!(off.x < 0.5 && off.y < 0.5)) return out;
   const auto snapped = [&](glm::dvec2 p) { return glm::dvec2(rounded(of_x, p.x), rounded(of_y, p.y)); };

@@ -131,6 +131,8 @@ struct Projected {
 
   /// Place of the renderer's own window that rays are counted from [pixels from the frame's lower left corner].
   glm::dvec2 middle() const { return to_frame + 0.5 * glm::dvec2(width, height); }
+  /// The corner's place [pixels from the frame's lower left corner].
+  glm::dvec2 place(const Corner& corner) const { return glm::dvec2(corner.v) / corner.v.z + middle(); }
   /// The ray d of a pixel's sample (its centre where there are no samples).
   glm::dvec3 ray(int px, int py) const { return {px + 0.5 - 0.5 * width, py + 0.5 - 0.5 * height, 1}; }
   /// The triangle that coverage and attributes of a primitive go by.

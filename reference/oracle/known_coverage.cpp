@@ -57,13 +57,12 @@ double steps_of(const C& c) { return c.subpixel_bits == C::kFloat ? 1 : std::lde
 // Places of a triangle's corner [steps of the grid, or pixels]; none: unknown. Those of a copy on the grid are not
 // snapped again: down or up, the rounding of v / w would move them by a step.
 GridPoints points_of(const Projected& scene, const Triangle& t, std::size_t i) {
-  const auto place_of = [&](const Corner& c) { return glm::dvec2(c.v) / c.v.z + scene.middle(); };
   const Corner& corner = scene.corners[t.corner[i]];
   if (scene.conventions.subpixel_bits == C::kFloat)
-    return corner.is_exact ? GridPoints{{place_of(corner)}, 1} : GridPoints{};
+    return corner.is_exact ? GridPoints{{scene.place(corner)}, 1} : GridPoints{};
   if (!t.on_grid) return grid_points(scene, corner);
   const Corner& copy = scene.corners[scene.on_grid[*t.on_grid].corner[i]];
-  return {{glm::round(steps_of(scene.conventions) * place_of(copy))}, 1};
+  return {{glm::round(steps_of(scene.conventions) * scene.place(copy))}, 1};
 }
 
 }  // namespace

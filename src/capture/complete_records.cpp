@@ -64,11 +64,24 @@ bool reaches_beyond_grid(const Records<double>& r) {
   return std::ranges::any_of(r.triangles, [&](const auto& t) { return std::ranges::any_of(t.v, is_beyond); });
 }
 
+// Whether a polygon's own corner lies at least half as far; where no polygon is handed out, one may.
+bool may_reach_beyond_grid(const FrameFormat& frame, std::span<const ClipVertex<double>> corners) {
+  const double farthest = kFarthestPlace / 2 / kSubpixel;  // [pixels]
+  const auto is_beyond = [&](const ClipVertex<double>& v) {
+    const glm::dvec2 at = 0.5 * glm::dvec2(frame.width, frame.height) * glm::abs(glm::dvec2(v.p_clip));
+    return std::max(at.x, at.y) >= farthest * std::abs(v.p_clip.w);
+  };
+  return corners.empty() || std::ranges::any_of(corners, is_beyond);
+}
+
 glm::ivec2 snapped_place(const Vec3<double>& p_win, std::size_t record, const Conventions& conventions) {
   const glm::dvec2 steps = place_of(p_win);
   if (!(std::abs(steps.x) < kFarthestPlace && std::abs(steps.y) < kFarthestPlace)) {
-    throw std::invalid_argument(fmt::format(
-        "window.snapped: left out, and the p_win of record {} is ({} {}): expected numbers", record, p_win.x, p_win.y));
+    throw std::invalid_argument(
+        fmt::format("window.snapped: left out, and the p_win of record {} is ({} {}): expected numbers within 2^22 "
+                    "pixels, where no "
+                    "polygon lies beyond them",
+                    record, p_win.x, p_win.y));
   }
   return {snapped(conventions, 0, steps.x), snapped(conventions, 1, steps.y)};
 }
@@ -355,7 +368,8 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   if (capture.derived.contains("texture.lod")) {
     for (Texel<double>& texel : r.texels) texel.lod = std::numeric_limits<double>::quiet_NaN();
   }
-  if (capture.derived.contains("window.snapped") && reaches_beyond_grid(r)) visit_capture(ClearFromWindow{}, capture);
+  const bool is_beyond = reaches_beyond_grid(r) && may_reach_beyond_grid(scene.frame, r.polygons.vertices);
+  if (capture.derived.contains("window.snapped") && is_beyond) visit_capture(ClearFromWindow{}, capture);
   derive_window(draws, conventions, capture);
   sort_triangles(capture);
   sort_fragments(capture);

@@ -267,11 +267,16 @@ TEST(CompleteRecords, RefuseWhatNothingFollowsFrom) {
     return out;
   };
   for (const double x : {0x1p22 + 1, -1e300}) {
-    Capture beyond = with_place(x);
+    expect_refused(scene, with_place(x), "window.snapped: left out, and the p_win of record 1 is (");
+    Capture beyond = with_place(x), without = beyond;
+    beyond.records.polygons.vertices[0].p_clip = {0x1p20, 0, 0, 0x1p-4};
     complete_records(scene, beyond);
     EXPECT_TRUE(beyond.records.triangles.empty() && beyond.records.covered.empty() && beyond.records.shaded.empty());
     EXPECT_FALSE(beyond.records.polygons.polygons.empty());
     EXPECT_TRUE(std::ranges::equal(beyond.planes.color.values(), whole_capture(scene).planes.color.values()));
+    without.records.polygons = {};
+    complete_records(scene, without);
+    EXPECT_TRUE(without.records.triangles.empty()) << "nobody knows how far its polygons reach";
   }
   Capture within = with_place(0x1p22 - 1);
   complete_records(scene, within);

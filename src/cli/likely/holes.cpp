@@ -1,5 +1,6 @@
 #include "cli/likely/holes.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include <fmt/format.h>
@@ -26,6 +27,12 @@ Beyond beyond_planes(const ColorAndDepth& frame, std::size_t i) {
   if (frame.depth.empty()) return Beyond::neither;
   const double z = frame.depth.values()[i];
   return z > 1 + kOfFloat ? Beyond::far_plane : z < -kOfFloat ? Beyond::near_plane : Beyond::neither;
+}
+
+// Whether depths 0 and 1 are those of the planes, and both cut.
+bool is_cut_at_0_and_1(const Scene& scene) {
+  const auto is_whole = [](const Draw& draw) { return draw.depth_range == DepthRange{}; };
+  return !scene.depth_clamp && std::ranges::all_of(scene.draws, is_whole);
 }
 
 std::string beyond_text(std::size_t pixels, const char* plane) {
@@ -58,6 +65,7 @@ std::string holes_text(const Scene& scene, const GivenFrame& given) {
       "of {} wrong pixels, {} are as cleared where a surface is to be seen, {} show one where none is: coverage, what "
       "is clipped or culled before it, a test of depth, stencil or alpha, or the clear\n",
       wrong, holes, drawn);
+  if (!is_cut_at_0_and_1(*seen)) return counted;
   return counted + beyond_text(before_near, "near") + beyond_text(beyond_far, "far");
 }
 

@@ -256,7 +256,7 @@ bool is_among(std::string_view fault, std::span<const std::string_view> faults) 
   return std::ranges::find(faults, fault) != faults.end();
 }
 
-// What is drawn without `fault`, one of kLifted, where the conventions declare it.
+// Lack of `fault`, one of kLifted, where the conventions declare it.
 KnownFault not_as_declared(const FaultInfo& fault) {
   const std::string stage(fault.stage);
   const bool is_of_ties = stage == "coverage";

@@ -1,4 +1,4 @@
-// What is known about a frame that is to be explained: legal pixels, and stages that are right or wrong.
+// Knowledge about a frame that is to be explained: legal pixels, and stages that are right or wrong.
 #include <gtest/gtest.h>
 
 #include <utility>

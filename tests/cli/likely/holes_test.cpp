@@ -54,6 +54,8 @@ TEST_F(Holes, ThatLieBeyondAPlaneAreToldSo) {
   const std::string text = holes_text(scene, given);
   EXPECT_NE(text.find("depths beyond the near plane, where all is clipped: 2 of"), std::string::npos) << text;
   EXPECT_NE(text.find("depths beyond the far plane, where all is clipped: 1 of"), std::string::npos) << text;
+  scene.draws[0].depth_range = {1, 0};
+  EXPECT_EQ(holes_text(scene, given).find("where all is clipped"), std::string::npos) << "another depth is the plane's";
 }
 
 TEST_F(Holes, OfLegalPixelsAreNone) {

@@ -286,8 +286,8 @@ TEST(Lookalikes, OfAStageThatIsWrongByItselfComeFirst) {
   }
 }
 
-// Of draws with `normalize`, stage vertex judges the direction of a stranger's normals alone: their length is wrong at
-// stage light.
+// Normals of draws with `normalize`: stage vertex judges their direction alone, of a stranger; stage light finds their
+// length wrong.
 TEST(Lookalikes, OfNormalsThatAreNotUnitAreNamedWhereLightIsWrong) {
   const Scene scene = scene_of("light/squeezed.json");
   GivenFrame given = drawn(scene, "vertex.not_renormalised");
